@@ -1,0 +1,36 @@
+/// Bad values are refused with one sentence: where, which field, its value, the bound it breaks.
+#pragma once
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace incognita {
+
+/// Throws std::invalid_argument "<where>: <field> is <value>, but must be <bound>".
+[[noreturn]] inline void throw_invalid(std::string_view where, std::string_view field, double value,
+                                       std::string_view bound) {
+  std::ostringstream message;
+  message << where << ": " << field << " is " << value << ", but must be " << bound;
+  throw std::invalid_argument(message.str());
+}
+
+/// Throws as throw_invalid does unless `holds`. NaN fails every comparison, so write the condition that must hold.
+inline void require(bool holds, std::string_view where, std::string_view field, double value,
+                    std::string_view bound) {
+  if (!holds) throw_invalid(where, field, value, bound);
+}
+
+/// Requires a finite value > 0.
+inline void require_positive(std::string_view where, std::string_view field, double value) {
+  require(std::isfinite(value) && value > 0.0, where, field, value, "finite and > 0");
+}
+
+/// Requires a finite value >= 0.
+inline void require_non_negative(std::string_view where, std::string_view field, double value) {
+  require(std::isfinite(value) && value >= 0.0, where, field, value, "finite and >= 0");
+}
+
+}  // namespace incognita

@@ -1,0 +1,38 @@
+/// Axis-aligned boxes, half open: a box holds its lower corner and not its upper one.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace incognita {
+
+/// The set {x : lower <= x < upper}, per axis. `Vector` is an Eigen column of coordinates (metres) or of cell indices.
+/// Empty unless lower < upper on every axis.
+template <class Vector>
+struct Box {
+  Vector lower = Vector::Zero();
+  Vector upper = Vector::Zero();
+
+  [[nodiscard]] bool empty() const { return !(lower.array() < upper.array()).all(); }
+
+  [[nodiscard]] Vector extent() const { return upper - lower; }
+
+  [[nodiscard]] bool contains(const Vector& x) const {
+    return (x.array() >= lower.array()).all() && (x.array() < upper.array()).all();
+  }
+
+  /// True when every point of `other` is in this box; an empty box is inside every other.
+  [[nodiscard]] bool contains(const Box& other) const {
+    return other.empty() ||
+           ((other.lower.array() >= lower.array()).all() && (other.upper.array() <= upper.array()).all());
+  }
+};
+
+/// The smallest box that holds both; an empty one adds nothing.
+template <class Vector>
+[[nodiscard]] Box<Vector> enclosing_box(const Box<Vector>& a, const Box<Vector>& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
+}
+
+}  // namespace incognita

@@ -1,0 +1,51 @@
+/// Poses in the plane, SE(2).
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "incognita/core/angles.hpp"
+
+namespace incognita {
+
+/// A position in metres and a heading in radians. As T_a_b it takes coordinates in frame b to coordinates in frame a;
+/// composition reads T_a_c = T_a_b * T_b_c. Its covariance is over (x, y, yaw), in m^2, m rad and rad^2, with the
+/// position in the axes of frame a.
+struct Pose2 {
+  static constexpr int dimension = 2;
+  using Vector = Eigen::Vector2d;
+  using Rotation = Eigen::Matrix2d;
+  using Covariance = Eigen::Matrix3d;
+
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double yaw_rad = 0.0;
+
+  [[nodiscard]] Vector position() const { return {x_m, y_m}; }
+
+  [[nodiscard]] Rotation rotation() const {
+    const double c = std::cos(yaw_rad);
+    const double s = std::sin(yaw_rad);
+    return (Rotation() << c, -s, s, c).finished();
+  }
+
+  /// Coordinates in frame a of a point given in frame b.
+  [[nodiscard]] Vector operator*(const Vector& point_b) const { return position() + rotation() * point_b; }
+
+  [[nodiscard]] Pose2 operator*(const Pose2& T_b_c) const {
+    const Vector p = *this * T_b_c.position();
+    return {p.x(), p.y(), wrap_angle_rad(yaw_rad + T_b_c.yaw_rad)};
+  }
+
+  [[nodiscard]] Pose2 inverse() const {
+    const Vector p = -(rotation().transpose() * position());
+    return {p.x(), p.y(), wrap_angle_rad(-yaw_rad)};
+  }
+
+  [[nodiscard]] bool is_finite() const {
+    return std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(yaw_rad);
+  }
+};
+
+}  // namespace incognita

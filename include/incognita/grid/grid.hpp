@@ -1,0 +1,142 @@
+/// A dense grid of values that grows in any direction.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "incognita/grid/lattice.hpp"
+
+namespace incognita {
+
+/// The place of a cell in a grid's storage. Valid until the grid grows.
+using Offset = std::ptrdiff_t;
+
+/// Values on a box of lattice cells, x fastest. A cell keeps its index for ever: growing moves the storage, not the
+/// world. Offsets are for hot loops; they change when the grid grows. Safe to read from many threads at once.
+template <class Value, int Dim>
+class Grid {
+  static_assert(!std::is_same_v<Value, bool>, "use std::uint8_t: cells are addressed one by one");
+
+ public:
+  static constexpr int dimension = Dim;
+  /// No grid holds more cells than this: a wild coordinate must not ask for all of the memory.
+  static constexpr std::int64_t cell_count_max = std::int64_t{1} << 31;
+
+  /// Cells of `box`, each `fill`. Throws std::length_error above cell_count_max.
+  explicit Grid(const Lattice<Dim>& lattice, const IndexBox<Dim>& box = {}, Value fill = Value{})
+      : lattice_(lattice), fill_(fill) {
+    resize(box);
+    values_.assign(static_cast<std::size_t>(checked_count(box)), fill_);
+  }
+
+  [[nodiscard]] const Lattice<Dim>& lattice() const { return lattice_; }
+  [[nodiscard]] double resolution_m() const { return lattice_.resolution_m(); }
+  [[nodiscard]] const IndexBox<Dim>& box() const { return box_; }
+  [[nodiscard]] std::size_t size() const { return values_.size(); }
+  /// How far apart in storage two neighbours along `axis` are.
+  [[nodiscard]] Offset stride(int axis) const { return stride_[static_cast<std::size_t>(axis)]; }
+
+  [[nodiscard]] bool contains(const Index<Dim>& index) const { return box_.contains(index); }
+
+  /// The storage place of a cell of the box; the index is not checked.
+  [[nodiscard]] Offset offset_of(const Index<Dim>& index) const {
+    Offset offset = index[0] - box_.lower[0];
+    for (int axis = 1; axis < Dim; ++axis) offset += (index[axis] - box_.lower[axis]) * stride(axis);
+    return offset;
+  }
+
+  [[nodiscard]] Index<Dim> index_at(Offset offset) const {
+    Index<Dim> index;
+    for (int axis = Dim - 1; axis > 0; --axis) {
+      index[axis] = static_cast<int>(offset / stride(axis)) + box_.lower[axis];
+      offset %= stride(axis);
+    }
+    index[0] = static_cast<int>(offset) + box_.lower[0];
+    return index;
+  }
+
+  [[nodiscard]] Value& operator[](Offset offset) { return values_[static_cast<std::size_t>(offset)]; }
+  [[nodiscard]] const Value& operator[](Offset offset) const { return values_[static_cast<std::size_t>(offset)]; }
+
+  /// The value of a cell, the fill value outside of the box.
+  [[nodiscard]] const Value& value(const Index<Dim>& index) const {
+    return contains(index) ? (*this)[offset_of(index)] : fill_;
+  }
+
+  /// Sets a cell of the box; throws std::out_of_range outside of it.
+  void set(const Index<Dim>& index, const Value& value) {
+    if (!contains(index)) throw std::out_of_range("Grid::set: the index lies outside of the grid's box");
+    (*this)[offset_of(index)] = value;
+  }
+
+  [[nodiscard]] const std::vector<Value>& values() const { return values_; }
+  [[nodiscard]] std::vector<Value>& values() { return values_; }
+
+  /// Makes room for `needed`; new cells hold the fill value. A side that must move moves by at least half of the
+  /// grid's extent, so a robot that leaves it step by step costs amortised O(1) per new cell. Returns whether the
+  /// storage moved. Throws std::length_error above cell_count_max and std::bad_alloc; the grid is then unchanged.
+  bool grow_to_include(const IndexBox<Dim>& needed) {
+    if (box_.contains(needed)) return false;
+    IndexBox<Dim> grown = enclosing_box(box_, needed);
+    for (int axis = 0; axis < Dim && !box_.empty(); ++axis) {
+      const int margin = box_.extent()[axis] / 2;
+      if (grown.lower[axis] < box_.lower[axis]) {
+        grown.lower[axis] = std::min(grown.lower[axis], box_.lower[axis] - margin);
+      }
+      if (grown.upper[axis] > box_.upper[axis]) {
+        grown.upper[axis] = std::max(grown.upper[axis], box_.upper[axis] + margin);
+      }
+    }
+    Grid larger(lattice_, grown, fill_);
+    if (!box_.empty()) copy_rows_to(larger);
+    *this = std::move(larger);
+    return true;
+  }
+
+ private:
+  [[nodiscard]] static std::int64_t checked_count(const IndexBox<Dim>& box) {
+    if (box.empty()) return 0;
+    std::int64_t count = 1;
+    for (int axis = 0; axis < Dim; ++axis) {
+      const std::int64_t extent = std::int64_t{box.upper[axis]} - std::int64_t{box.lower[axis]};
+      if (extent > cell_count_max / count) {
+        throw std::length_error("Grid: a box of more than " + std::to_string(cell_count_max) + " cells");
+      }
+      count *= extent;
+    }
+    return count;
+  }
+
+  void resize(const IndexBox<Dim>& box) {
+    static_cast<void>(checked_count(box));
+    box_ = box.empty() ? IndexBox<Dim>{} : box;
+    Offset stride = 1;
+    for (int axis = 0; axis < Dim; ++axis) {
+      stride_[static_cast<std::size_t>(axis)] = stride;
+      stride *= box_.upper[axis] - box_.lower[axis];
+    }
+  }
+
+  void copy_rows_to(Grid& larger) const {
+    const Offset row_length = box_.upper[0] - box_.lower[0];
+    for (Offset row = 0; row < static_cast<Offset>(values_.size()); row += row_length) {
+      std::copy_n(values_.begin() + row, row_length,
+                  larger.values_.begin() + larger.offset_of(index_at(row)));
+    }
+  }
+
+  Lattice<Dim> lattice_;
+  IndexBox<Dim> box_;
+  std::array<Offset, static_cast<std::size_t>(Dim)> stride_{};
+  Value fill_;
+  std::vector<Value> values_;
+};
+
+}  // namespace incognita

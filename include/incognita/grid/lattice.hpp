@@ -1,0 +1,66 @@
+/// Where the cells of a grid lie in the world, in two and three dimensions.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "incognita/core/error.hpp"
+#include "incognita/geometry/box.hpp"
+
+namespace incognita {
+
+/// Coordinates in metres.
+template <int Dim>
+using Point = Eigen::Matrix<double, Dim, 1>;
+
+/// The integer coordinates of a cell; any sign.
+template <int Dim>
+using Index = Eigen::Matrix<int, Dim, 1>;
+
+/// A box of cells, half open.
+template <int Dim>
+using IndexBox = Box<Index<Dim>>;
+
+/// An endless lattice of square (cubic) cells: cell i covers [origin + i res, origin + (i + 1) res) on each axis.
+template <int Dim>
+class Lattice {
+ public:
+  static constexpr int dimension = Dim;
+
+  /// Throws std::invalid_argument unless resolution_m is finite and > 0 and the origin is finite.
+  explicit Lattice(double resolution_m, const Point<Dim>& origin_m = Point<Dim>::Zero())
+      : resolution_m_(resolution_m), per_m_(1.0 / resolution_m), origin_m_(origin_m) {
+    require_positive("Lattice", "resolution_m", resolution_m);
+    for (int axis = 0; axis < Dim; ++axis) {
+      require(std::isfinite(origin_m[axis]), "Lattice", "origin_m", origin_m[axis], "finite");
+    }
+  }
+
+  [[nodiscard]] double resolution_m() const { return resolution_m_; }
+  [[nodiscard]] const Point<Dim>& origin_m() const { return origin_m_; }
+
+  /// Lattice coordinates: cell i covers [i, i + 1).
+  [[nodiscard]] Point<Dim> to_cells(const Point<Dim>& point_m) const { return (point_m - origin_m_) * per_m_; }
+
+  /// The cell that holds a point. The point must lie within 2^31 cells of the origin.
+  [[nodiscard]] Index<Dim> index_of(const Point<Dim>& point_m) const {
+    return to_cells(point_m).array().floor().template cast<int>();
+  }
+
+  [[nodiscard]] Point<Dim> center_m(const Index<Dim>& index) const {
+    return origin_m_ + (index.template cast<double>().array() + 0.5).matrix() * resolution_m_;
+  }
+
+  /// The smallest box of cells that holds a box of points (upper face included).
+  [[nodiscard]] IndexBox<Dim> cells_of(const Box<Point<Dim>>& box_m) const {
+    return {index_of(box_m.lower), (index_of(box_m.upper).array() + 1).matrix()};
+  }
+
+ private:
+  double resolution_m_;
+  double per_m_;
+  Point<Dim> origin_m_;
+};
+
+}  // namespace incognita

@@ -1,0 +1,64 @@
+/// The cells that a segment passes, in order (Amanatides and Woo 1987), in two and three dimensions.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "incognita/grid/lattice.hpp"
+
+namespace incognita {
+
+/// Calls visit(index) for each cell that the segment passes, from the cell that holds `from_m` to the cell that holds
+/// `to_m`, both included: exactly 1 + |i_to - i_from|_1 cells, each a face neighbour of the last. A visit that returns
+/// bool ends the walk by returning false. Where the segment meets an edge of the lattice exactly, the lower axis steps
+/// first. Both points must be finite and within 2^31 cells of the origin. O(cells passed), no allocation.
+template <int Dim, class Visit>
+void traverse(const Lattice<Dim>& lattice, const Point<Dim>& from_m, const Point<Dim>& to_m, Visit&& visit) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const Point<Dim> from = lattice.to_cells(from_m);
+  const Point<Dim> to = lattice.to_cells(to_m);
+  Index<Dim> index = from.array().floor().template cast<int>();
+  const Index<Dim> last = to.array().floor().template cast<int>();
+
+  // The segment parameter of the next crossing is first + crossed * period: computed anew from the integer count at
+  // each step, so rounding does not add up along the ray.
+  std::array<double, static_cast<std::size_t>(Dim)> first;
+  std::array<double, static_cast<std::size_t>(Dim)> period;
+  std::array<double, static_cast<std::size_t>(Dim)> next;
+  std::array<int, static_cast<std::size_t>(Dim)> step;
+  std::array<int, static_cast<std::size_t>(Dim)> crossed{};
+  std::array<int, static_cast<std::size_t>(Dim)> crossings;
+  int steps = 0;
+  for (int a = 0; a < Dim; ++a) {
+    const auto axis = static_cast<std::size_t>(a);
+    const double delta = to[a] - from[a];
+    step[axis] = last[a] > index[a] ? 1 : -1;
+    crossings[axis] = std::abs(last[a] - index[a]);
+    steps += crossings[axis];
+    const double boundary = index[a] + (step[axis] > 0 ? 1.0 : 0.0);
+    first[axis] = (boundary - from[a]) / delta;
+    period[axis] = 1.0 / std::abs(delta);
+    next[axis] = crossings[axis] > 0 ? first[axis] : never;
+  }
+
+  for (int taken = 0;; ++taken) {
+    if constexpr (std::is_same_v<std::invoke_result_t<Visit&, const Index<Dim>&>, bool>) {
+      if (!visit(index)) return;
+    } else {
+      visit(index);
+    }
+    if (taken == steps) return;
+    std::size_t axis = 0;
+    for (std::size_t other = 1; other < static_cast<std::size_t>(Dim); ++other) {
+      if (next[other] < next[axis]) axis = other;
+    }
+    index[static_cast<int>(axis)] += step[axis];
+    ++crossed[axis];
+    // An axis that has reached its last cell never steps again, whatever the rounding.
+    next[axis] = crossed[axis] < crossings[axis] ? first[axis] + crossed[axis] * period[axis] : never;
+  }
+}
+
+}  // namespace incognita
