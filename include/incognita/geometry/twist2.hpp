@@ -1,0 +1,13 @@
+/// Velocities of a robot in the plane.
+#pragma once
+
+namespace incognita {
+
+/// What a unicycle (a robot that drives along its own x axis and turns) is told to do or does, in its own
+/// frame.
+struct Twist2 {
+  double speed_m_per_s = 0.0;        ///< forwards > 0
+  double turn_rate_rad_per_s = 0.0;  ///< counter-clockwise > 0
+};
+
+}  // namespace incognita
