@@ -1,5 +1,5 @@
-/// What a check of a concept's laws found. Every check_*_laws function under testing/ returns one, so that a policy's
-/// own test, with any test framework, only asserts holds() and shows the text.
+/// What a check of a concept's laws found. Every check_*_laws function under testing/ returns one, so that a
+/// policy's own test, with any test framework, only asserts holds() and shows the text.
 #pragma once
 
 #include <string>
@@ -15,7 +15,8 @@ struct LawReport {
   /// True when no law was broken.
   [[nodiscard]] bool holds() const { return violations.empty(); }
 
-  /// Records `law` as broken unless `kept`. Say the law and the arguments that break it: "H(p) = H(1 - p) at p = 0.2".
+  /// Records `law` as broken unless `kept`. Say the law and the arguments that break it: "H(p) = H(1 - p) at
+  /// p = 0.2".
   void check(bool kept, std::string law) {
     if (!kept) violations.push_back(std::move(law));
   }
