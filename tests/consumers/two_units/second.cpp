@@ -1,0 +1,2 @@
+/// The second unit that includes everything.
+#include <incognita/incognita.hpp>
