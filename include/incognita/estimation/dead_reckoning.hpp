@@ -1,0 +1,58 @@
+/// Odometry alone: the baseline A1 of Seo et al., section VI-B.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "incognita/estimation/estimator.hpp"
+
+namespace incognita {
+
+/// Integrates odometry and lets its variance grow; scans correct nothing.
+class DeadReckoning {
+ public:
+  struct Params {
+    /// As random as 0.05 m/s and 0.02 rad/s drawn anew every 0.02 s.
+    MotionNoise noise{0.00707, 0.00283};
+    PoseBelief start;
+  };
+
+  DeadReckoning() : DeadReckoning(Params{}) {}
+
+  /// Throws std::invalid_argument for noise or a start that is not finite, or a start covariance that is none.
+  explicit DeadReckoning(const Params& params) : params_(params), belief_(params.start) {
+    params.noise.validate();
+    require_belief("DeadReckoning", params.start);
+  }
+
+  [[nodiscard]] const PoseBelief& belief() const { return belief_; }
+  [[nodiscard]] bool is_ready() const { return true; }
+
+  void predict(const Pose2& increment, double duration_s) {
+    belief_ = propagate(belief_, increment, params_.noise, duration_s);
+  }
+
+  template <class MapType>
+  CorrectionReport correct(const Scan<2>& /*scan*/, const MapType& /*map*/) {
+    return {};
+  }
+
+  void learn(const Scan<2>& /*scan*/) {}
+
+  [[nodiscard]] PoseBelief imagine_motion(const PoseBelief& belief, const Pose2& increment, double duration_s) const {
+    return propagate(belief, increment, params_.noise, duration_s);
+  }
+
+  [[nodiscard]] PoseBelief imagine_scan(const PoseBelief& belief, std::span<const RayObservation> /*hits*/,
+                                        std::size_t /*beam_count*/, double /*scan_count*/) const {
+    return belief;
+  }
+
+ private:
+  Params params_;
+  PoseBelief belief_;
+};
+
+static_assert(Estimator<DeadReckoning>);
+
+}  // namespace incognita

@@ -1,0 +1,189 @@
+/// The extended Kalman filter that weighs each hit by the map's confidence (Seo et al., section IV-B).
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "incognita/estimation/estimator.hpp"
+#include "incognita/estimation/registration.hpp"
+#include "incognita/estimation/surface_map.hpp"
+#include "incognita/grid/traversal.hpp"
+
+namespace incognita {
+
+/// Prediction by (7); correction by the tempered likelihoods of (9) with R_x of (10). Form::registration (the default)
+/// corrects position and heading against sub-cell surfaces. Form::ray is Lemma 4.1 to the letter, hits associated by
+/// casting the beam in the belief: it does not observe the heading and drifts (reading: 1.5 m and more), so it is there
+/// for comparison. Decisions are predicted with the ray form, whichever form estimates.
+class DvlEkf {
+ public:
+  enum class Form { registration, ray };
+
+  struct Params {
+    PoseBelief start{{}, Eigen::Vector3d(1e-6, 1e-6, 1e-6).asDiagonal()};
+    /// Q of (7). Larger than the odometry's own noise: errors of a map are correlated over scans, and a filter matched
+    /// to the odometry grows sure of them (reading of Seo et al.: NEES 200 to 1400).
+    MotionNoise noise{0.0632, 0.0632};
+    /// The start pose defines the map's frame, so it is known: it is held for this many scans, or until the robot has
+    /// moved by start_hold_distance_m, while the first surfaces are measured from a pose without error.
+    int start_scans_held = 20;
+    double start_hold_distance_m = 0.1;
+    Form form = Form::registration;
+    /// false: the decoupled baseline A2, A4 of section VI-B. A hit counts with R_o alone where the cell is occupied
+    /// with more than decoupled_probability_min, and not at all elsewhere.
+    bool coupled = true;
+    double decoupled_probability_min = 0.65;
+    RegistrationParams registration;
+    SurfaceMap<2>::Params surfaces;
+    RayUpdateParams ray;  ///< for Form::ray
+    /// For imagined scans: divided by the number of beams, so that little is learned where little is seen.
+    RayUpdateParams imagined{{}, 1.2, Tempering::beams, MixtureVariance::squared_weights};
+  };
+
+  DvlEkf() : DvlEkf(Params{}) {}
+
+  /// Throws std::invalid_argument for parameters outside of their bounds; the noise must be > 0.
+  explicit DvlEkf(const Params& params) : params_(params), belief_(params.start), surfaces_(params.surfaces) {
+    require_belief("DvlEkf", params.start);
+    require_positive("DvlEkf", "noise.position_m_per_sqrt_s", params.noise.position_m_per_sqrt_s);
+    require_positive("DvlEkf", "noise.yaw_rad_per_sqrt_s", params.noise.yaw_rad_per_sqrt_s);
+    require(params.start_scans_held >= 0, "DvlEkf", "start_scans_held", params.start_scans_held, ">= 0");
+    require_non_negative("DvlEkf", "start_hold_distance_m", params.start_hold_distance_m);
+    require(params.decoupled_probability_min >= 0.0 && params.decoupled_probability_min < 1.0, "DvlEkf",
+            "decoupled_probability_min", params.decoupled_probability_min, "in [0, 1)");
+    params.registration.validate();
+    params.ray.validate();
+    params.imagined.validate();
+    if (!params.coupled) decouple(params_);
+  }
+
+  [[nodiscard]] const Params& params() const { return params_; }
+  [[nodiscard]] const PoseBelief& belief() const { return belief_; }
+  [[nodiscard]] const SurfaceMap<2>& surfaces() const { return surfaces_; }
+
+  /// False while the start pose is held.
+  [[nodiscard]] bool is_ready() const { return scans_held_ >= params_.start_scans_held; }
+
+  void predict(const Pose2& increment, double duration_s) {
+    belief_ = propagate(belief_, increment, params_.noise, duration_s);
+  }
+
+  /// Corrects the belief by a scan; `map` must not have taken the scan yet.
+  template <class MapType>
+  CorrectionReport correct(const Scan<2>& scan, const MapType& map) {
+    if (holds_start()) {
+      ++scans_held_;
+      belief_ = params_.start;
+      return {};
+    }
+    return params_.form == Form::registration ? correct_by_registration(scan, map) : correct_by_rays(scan, map);
+  }
+
+  /// Adds the scan's end points, seen from the belief, to the surfaces.
+  void learn(const Scan<2>& scan) {
+    if (params_.form != Form::registration) return;
+    const Eigen::Matrix2d rotation = belief_.pose.rotation();
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      if (scan.reading(beam) != Reading::hit) continue;
+      const Eigen::Vector2d direction = rotation * scan.direction(beam);
+      surfaces_.add(belief_.pose.position() + direction * scan.range_m(beam), direction);
+    }
+    surfaces_.refresh_normals();
+  }
+
+  /// A heading measured directly (a compass, the paper's orientation aid of 0.01 rad): a scalar update in Joseph form.
+  /// Throws std::invalid_argument unless yaw_rad is finite and sigma_rad > 0.
+  void correct_heading(double yaw_rad, double sigma_rad) {
+    require(std::isfinite(yaw_rad), "DvlEkf::correct_heading", "yaw_rad", yaw_rad, "finite");
+    require_positive("DvlEkf::correct_heading", "sigma_rad", sigma_rad);
+    const double variance_rad2 = sigma_rad * sigma_rad;
+    const Eigen::Vector3d gain = belief_.covariance.col(2) / (belief_.covariance(2, 2) + variance_rad2);
+    const Eigen::Vector3d step = gain * angle_between_rad(belief_.pose.yaw_rad, yaw_rad);
+    Eigen::Matrix3d keep = Eigen::Matrix3d::Identity();
+    keep.col(2) -= gain;
+    belief_.covariance = keep * belief_.covariance * keep.transpose() + variance_rad2 * gain * gain.transpose();
+    belief_.pose = {belief_.pose.x_m + step.x(), belief_.pose.y_m + step.y(),
+                    wrap_angle_rad(belief_.pose.yaw_rad + step.z())};
+  }
+
+  [[nodiscard]] PoseBelief imagine_motion(const PoseBelief& belief, const Pose2& increment, double duration_s) const {
+    return propagate(belief, increment, params_.noise, duration_s);
+  }
+
+  /// The belief after scan_count scans like the one whose hits are given, without knowing their residuals: (11a).
+  [[nodiscard]] PoseBelief imagine_scan(const PoseBelief& belief, std::span<const RayObservation> hits,
+                                        std::size_t beam_count, double scan_count) const {
+    const Information information = ray_information(hits, beam_count, params_.imagined);
+    return {belief.pose, updated_covariance(belief.covariance, scan_count * information.matrix)};
+  }
+
+ private:
+  /// R_o whatever the probability: (10) with both variances weighed as if the cell were certain.
+  static void decouple(Params& params) {
+    params.registration.mixture = MixtureVariance::occupied_only;
+    params.ray.mixture = MixtureVariance::occupied_only;
+    params.imagined.mixture = MixtureVariance::occupied_only;
+  }
+
+  [[nodiscard]] bool holds_start() const {
+    return !is_ready() &&
+           (belief_.pose.position() - params_.start.pose.position()).norm() <= params_.start_hold_distance_m;
+  }
+
+  template <class MapType>
+  CorrectionReport correct_by_registration(const Scan<2>& scan, const MapType& map) {
+    const auto probability = [&](const Surface<2>& surface) {
+      // The belief's hits lie a little behind the measured face, so look there too.
+      const double at_face = map.probability(map.lattice().index_of(surface.mean_m));
+      const double behind = map.probability(map.lattice().index_of(surface.mean_m + 0.1 * surface.view));
+      return admitted(std::max(at_face, behind));
+    };
+    const Registration registration = register_scan(belief_, scan, surfaces_, probability, params_.registration);
+    belief_ = registration.belief;
+    return {registration.associations, registration.residual_rms_m};
+  }
+
+  template <class MapType>
+  CorrectionReport correct_by_rays(const Scan<2>& scan, const MapType& map) {
+    std::vector<RayObservation> hits;
+    const Eigen::Vector2d origin = belief_.pose.position();
+    const Eigen::Matrix2d rotation = belief_.pose.rotation();
+    double squares_m2 = 0.0;
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      if (scan.reading(beam) != Reading::hit) continue;
+      const double range_m = scan.range_m(beam) + map.hit_push_m();
+      const Eigen::Vector2d end = origin + rotation * scan.direction(beam) * (range_m + ray_search_m);
+      traverse<2>(map.lattice(), origin, end, [&](const Index<2>& index) {
+        const double probability = map.probability(index);
+        if (probability <= 0.5) return true;
+        const Eigen::Vector2d to_cell = map.lattice().center_m(index) - origin;
+        const double distance_m = to_cell.norm();
+        if (distance_m <= 0.0 || admitted(probability) < 0.0) return false;
+        hits.push_back({to_cell / distance_m, range_m - distance_m, probability});
+        squares_m2 += (range_m - distance_m) * (range_m - distance_m);
+        return false;
+      });
+    }
+    if (hits.empty()) return {};
+    belief_ = ray_update(belief_, hits, scan.size(), params_.ray);
+    return {hits.size(), std::sqrt(squares_m2 / static_cast<double>(hits.size()))};
+  }
+
+  /// The probability a hit counts with; negative where the decoupled filter leaves it out.
+  [[nodiscard]] double admitted(double probability) const {
+    return params_.coupled || probability > params_.decoupled_probability_min ? probability : -1.0;
+  }
+
+  static constexpr double ray_search_m = 1.0;  ///< how far behind a reading its cell may lie
+
+  Params params_;
+  PoseBelief belief_;
+  SurfaceMap<2> surfaces_;
+  int scans_held_ = 0;
+};
+
+static_assert(Estimator<DvlEkf>);
+
+}  // namespace incognita

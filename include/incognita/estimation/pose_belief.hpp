@@ -1,0 +1,72 @@
+/// A Gaussian belief over a pose in the plane and how a motion spreads it.
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "incognita/core/error.hpp"
+#include "incognita/geometry/pose.hpp"
+
+namespace incognita {
+
+/// N(pose, covariance) over (x, y, yaw); see Pose2::Covariance for units and axes.
+struct PoseBelief {
+  Pose2 pose;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// Throws std::invalid_argument unless the pose is finite and the covariance is one.
+inline void require_belief(const char* where, const PoseBelief& belief) {
+  if (!belief.pose.is_finite()) throw std::invalid_argument(std::string(where) + ": the start pose is not finite");
+  if (!is_covariance(belief.covariance)) {
+    throw std::invalid_argument(std::string(where) +
+                                ": the start covariance is not finite, symmetric and positive semi-definite");
+  }
+}
+
+/// The standard deviation of the position along its worst direction, in metres.
+[[nodiscard]] inline double position_sigma_m(const Eigen::Matrix3d& covariance) {
+  const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));
+  const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  return std::sqrt(mean + std::hypot(half_difference, covariance(0, 1)));
+}
+
+/// White process noise: its variance grows with time, whatever the steps time is cut into.
+struct MotionNoise {
+  double position_m_per_sqrt_s = 0.0;
+  double yaw_rad_per_sqrt_s = 0.0;
+
+  /// Throws std::invalid_argument unless both are finite and >= 0.
+  void validate() const {
+    require_non_negative("MotionNoise", "position_m_per_sqrt_s", position_m_per_sqrt_s);
+    require_non_negative("MotionNoise", "yaw_rad_per_sqrt_s", yaw_rad_per_sqrt_s);
+  }
+
+  /// Q of Seo et al., (7), for a step of duration_s.
+  [[nodiscard]] Eigen::Matrix3d covariance(double duration_s) const {
+    const double position_m2 = position_m_per_sqrt_s * position_m_per_sqrt_s * duration_s;
+    const double yaw_rad2 = yaw_rad_per_sqrt_s * yaw_rad_per_sqrt_s * duration_s;
+    return Eigen::Vector3d(position_m2, position_m2, yaw_rad2).asDiagonal();
+  }
+};
+
+/// F_x of Seo et al., (7): the derivative of the next pose, pose * increment, by the pose.
+[[nodiscard]] inline Eigen::Matrix3d motion_jacobian(const Pose2& pose, const Pose2& increment) {
+  const Eigen::Vector2d moved = pose.rotation() * increment.position();
+  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Identity();
+  jacobian(0, 2) = -moved.y();
+  jacobian(1, 2) = moved.x();
+  return jacobian;
+}
+
+/// The prediction step, Seo et al., (7): the pose moves by `increment` (in the robot's frame) within duration_s.
+[[nodiscard]] inline PoseBelief propagate(const PoseBelief& belief, const Pose2& increment, const MotionNoise& noise,
+                                          double duration_s) {
+  const Eigen::Matrix3d jacobian = motion_jacobian(belief.pose, increment);
+  return {belief.pose * increment, jacobian * belief.covariance * jacobian.transpose() + noise.covariance(duration_s)};
+}
+
+}  // namespace incognita

@@ -1,0 +1,149 @@
+/// A scan registered to the surfaces of a map: Gauss-Newton in information form, heading included.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "incognita/core/error.hpp"
+#include "incognita/estimation/information.hpp"
+#include "incognita/estimation/pose_belief.hpp"
+#include "incognita/estimation/surface_map.hpp"
+#include "incognita/sensor/dvl.hpp"
+#include "incognita/sensor/scan.hpp"
+
+namespace incognita {
+
+/// Parameters of register_scan.
+struct RegistrationParams {
+  DvlVariances dvl{0.01, 9.0};
+  MixtureVariance mixture = MixtureVariance::squared_weights;
+  double gamma = 12.0;             ///< the weight of a whole scan, in beams; > 0
+  int iterations = 2;              ///< >= 1
+  double across_max_m = 0.3;       ///< a line (plane) is associated within this distance across ...
+  double along_max_m = 0.25;       ///< ... and this distance along it
+  double point_distance_max_m = 0.15;  ///< a point is, within this distance
+  double point_weight = 0.5;       ///< of a point against a line
+  double huber_m = 0.01;           ///< residuals beyond this count less: edges of walls act as outliers
+
+  /// Throws std::invalid_argument for values outside of their bounds.
+  void validate() const {
+    dvl.validate();
+    require_positive("RegistrationParams", "gamma", gamma);
+    require(iterations >= 1, "RegistrationParams", "iterations", iterations, ">= 1");
+    require_positive("RegistrationParams", "across_max_m", across_max_m);
+    require_positive("RegistrationParams", "along_max_m", along_max_m);
+    require_positive("RegistrationParams", "point_distance_max_m", point_distance_max_m);
+    require_positive("RegistrationParams", "point_weight", point_weight);
+    require_positive("RegistrationParams", "huber_m", huber_m);
+  }
+};
+
+/// What register_scan found.
+struct Registration {
+  PoseBelief belief;
+  std::size_t associations = 0;        ///< N_h: beams with a surface, in the last iteration
+  double residual_rms_m = 0.0;         ///< of those beams, in the last iteration
+};
+
+/// Where the residual of one beam points. The residual of a line is signed along its normal; a point has one along each
+/// axis.
+struct SurfaceMatch {
+  const Surface<2>* surface = nullptr;
+  bool is_line = false;
+};
+
+/// The best surface for an end point seen along `direction`, both in the map's frame: the line with the smallest
+/// r^2 + t^2/4 (r across, t along it), else the nearest point of the same side.
+[[nodiscard]] inline SurfaceMatch match_surface(const SurfaceMap<2>& surfaces, const Eigen::Vector2d& end_point_m,
+                                                const Eigen::Vector2d& direction, const RegistrationParams& params) {
+  SurfaceMatch line{nullptr, true};
+  SurfaceMatch point{nullptr, false};
+  double line_cost_m2 = std::numeric_limits<double>::infinity();
+  double point_cost_m2 = params.point_distance_max_m * params.point_distance_max_m;
+  surfaces.for_each_near(end_point_m, [&](const Surface<2>& surface) {
+    if (!surface.faces(direction)) return;
+    const Eigen::Vector2d offset_m = end_point_m - surface.mean_m;
+    const double distance_m2 = offset_m.squaredNorm();
+    if (surface.planar) {
+      const double across_m = surface.normal.dot(offset_m);
+      const double along_m2 = distance_m2 - across_m * across_m;
+      const double cost_m2 = across_m * across_m + 0.25 * along_m2;
+      if (std::abs(across_m) <= params.across_max_m && along_m2 <= params.along_max_m * params.along_max_m &&
+          cost_m2 < line_cost_m2) {
+        line_cost_m2 = cost_m2;
+        line.surface = &surface;
+      }
+    }
+    if (distance_m2 < point_cost_m2) {
+      point_cost_m2 = distance_m2;
+      point.surface = &surface;
+    }
+  });
+  return line.surface != nullptr ? line : point;
+}
+
+/// The derivative of an end point in the map's frame by (x, y, yaw), projected on `axis`.
+[[nodiscard]] inline Eigen::Vector3d end_point_jacobian(const Eigen::Vector2d& axis, const Eigen::Vector2d& rotated_m) {
+  return {axis.x(), axis.y(), axis.y() * rotated_m.x() - axis.x() * rotated_m.y()};
+}
+
+/// Minimises the prior's Mahalanobis distance plus the tempered, robust distances of the end points to their surfaces,
+///   (gamma / N_h) sum_k w_k r_k^2 / R_x,
+/// with R_x of Seo et al., (10), from occupied_probability(surface) in [0, 1]; a probability < 0 leaves the surface out.
+/// The paper allows for such a registration in the estimation step (section IV-B, property 4); points on lines are the
+/// reading's answer to residuals that snap to a lattice. Without associations the posterior is the prior.
+/// O(beams * iterations); no allocation; safe to call from many threads.
+template <class Probability>
+[[nodiscard]] Registration register_scan(const PoseBelief& prior, const Scan<2>& scan, const SurfaceMap<2>& surfaces,
+                                         Probability&& occupied_probability, const RegistrationParams& params) {
+  const Eigen::Matrix3d prior_information = symmetric_inverse(prior.covariance);
+  Registration result{prior, 0, 0.0};
+  for (int iteration = 0; iteration < params.iterations; ++iteration) {
+    const Eigen::Matrix2d rotation = result.belief.pose.rotation();
+    const Eigen::Vector2d origin = result.belief.pose.position();
+    Information information;
+    std::size_t associations = 0;
+    double squares_m2 = 0.0;
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      if (scan.reading(beam) != Reading::hit) continue;
+      const Eigen::Vector2d direction = rotation * scan.direction(beam);
+      const Eigen::Vector2d rotated_m = direction * scan.range_m(beam);
+      const SurfaceMatch match = match_surface(surfaces, origin + rotated_m, direction, params);
+      if (match.surface == nullptr) continue;
+      const double probability = occupied_probability(*match.surface);
+      if (probability < 0.0) continue;
+      const Eigen::Vector2d offset_m = origin + rotated_m - match.surface->mean_m;
+      const double precision = 1.0 / measurement_variance_m2(params.dvl, probability, params.mixture);
+      const double residual_m = match.is_line ? match.surface->normal.dot(offset_m) : offset_m.norm();
+      const double robust = std::min(1.0, params.huber_m / std::max(std::abs(residual_m), 1e-12));
+      ++associations;
+      squares_m2 += residual_m * residual_m;
+      if (match.is_line) {
+        information.add(end_point_jacobian(match.surface->normal, rotated_m), -residual_m, robust * precision);
+      } else {
+        const double weight = params.point_weight * robust * precision;
+        information.add(end_point_jacobian(Eigen::Vector2d::UnitX(), rotated_m), -offset_m.x(), weight);
+        information.add(end_point_jacobian(Eigen::Vector2d::UnitY(), rotated_m), -offset_m.y(), weight);
+      }
+    }
+    if (associations == 0) return {prior, 0, 0.0};
+    const double tempered = params.gamma / static_cast<double>(associations);
+    const Eigen::Vector3d from_prior(prior.pose.x_m - result.belief.pose.x_m, prior.pose.y_m - result.belief.pose.y_m,
+                                     angle_between_rad(result.belief.pose.yaw_rad, prior.pose.yaw_rad));
+    result.belief.covariance = symmetric_inverse(prior_information + tempered * information.matrix);
+    const Eigen::Vector3d step =
+        result.belief.covariance * (prior_information * from_prior + tempered * information.vector);
+    result.belief.pose = {result.belief.pose.x_m + step.x(), result.belief.pose.y_m + step.y(),
+                          wrap_angle_rad(result.belief.pose.yaw_rad + step.z())};
+    result.associations = associations;
+    result.residual_rms_m = std::sqrt(squares_m2 / static_cast<double>(associations));
+  }
+  return result;
+}
+
+}  // namespace incognita

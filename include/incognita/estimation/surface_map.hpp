@@ -1,0 +1,211 @@
+/// Sub-cell statistics of surfaces: what registration needs and an occupancy belief cannot give.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include "incognita/core/error.hpp"
+#include "incognita/grid/grid.hpp"
+
+namespace incognita {
+
+/// The end points that one side of a surface left in one cell, as a running Gaussian.
+template <int Dim>
+struct Surface {
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+
+  int count = 0;
+  Point<Dim> mean_m = Point<Dim>::Zero();
+  Matrix scatter_m2 = Matrix::Zero();      ///< the sum of outer products of deviations from the mean
+  Point<Dim> view = Point<Dim>::Zero();    ///< the mean direction of the beams that ended here
+  Point<Dim> normal = Point<Dim>::Zero();  ///< unit, against the view; valid when planar
+  bool planar = false;
+
+  void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
+    ++count;
+    const Point<Dim> deviation = point_m - mean_m;
+    mean_m += deviation / count;
+    scatter_m2.noalias() += deviation * (point_m - mean_m).transpose();
+    view += (direction - view) / count;
+  }
+
+  /// True when a beam of this direction looks at the side that this surface shows. Beams along a wall from its left
+  /// and from its right differ by nearly pi and still see one side, so the normal decides where there is one.
+  [[nodiscard]] bool faces(const Point<Dim>& direction) const {
+    return planar ? normal.dot(direction) < 0.0 : view.dot(direction) > 0.0;
+  }
+};
+
+/// Surfaces on a lattice of their own, apart from the belief's, kept only where beams ended. At most `sides_max` of
+/// them a cell, each frozen after count_max points: what was measured first, with the least drift, stays.
+/// Reading is safe from many threads; adding is not.
+template <int Dim = 2>
+class SurfaceMap {
+ public:
+  struct Params {
+    double cell_m = 0.2;
+    int count_max = 50;                ///< a surface is frozen at this many points
+    double pool_radius_m = 0.3;        ///< a normal pools the surfaces of the neighbourhood this near ...
+    double pool_offset_m = 0.06;       ///< ... and this near to their common line (plane)
+    int planar_count_min = 4;
+    double flatness = 0.1;             ///< planar: smallest eigenvalue <= flatness * next + roughness_m2
+    double roughness_m2 = 4e-5;        ///< allows for the noise of ranges
+    double spread_min_m = 0.02;        ///< planar: sqrt of the next eigenvalue at least this
+  };
+  static constexpr int sides_max = 3;
+
+  /// Throws std::invalid_argument for values that are not finite and positive.
+  explicit SurfaceMap(const Params& params = {}) : params_(params), slots_(Lattice<Dim>(params.cell_m), {}, -1) {
+    require(params.count_max >= 1, "SurfaceMap", "count_max", params.count_max, ">= 1");
+    require_positive("SurfaceMap", "pool_radius_m", params.pool_radius_m);
+    require_positive("SurfaceMap", "pool_offset_m", params.pool_offset_m);
+    require(params.planar_count_min >= 2, "SurfaceMap", "planar_count_min", params.planar_count_min, ">= 2");
+    require_non_negative("SurfaceMap", "flatness", params.flatness);
+    require_non_negative("SurfaceMap", "roughness_m2", params.roughness_m2);
+    require_positive("SurfaceMap", "spread_min_m", params.spread_min_m);
+  }
+
+  [[nodiscard]] const Params& params() const { return params_; }
+
+  /// The number of surfaces held.
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  /// Makes room for points in `box_m`, so that add() there does not move storage.
+  void reserve(const Box<Point<Dim>>& box_m) { slots_.grow_to_include(slots_.lattice().cells_of(box_m)); }
+
+  /// Adds the end point of a beam of the given unit direction. The point must be finite and within the lattice's
+  /// reach. Normals are brought up to date by refresh_normals.
+  void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
+    const Index<Dim> index = slots_.lattice().index_of(point_m);
+    if (!slots_.contains(index)) slots_.grow_to_include({index, (index.array() + 1).matrix()});
+    std::int32_t& slot = slots_[slots_.offset_of(index)];
+    if (slot < 0) {
+      slot = static_cast<std::int32_t>(cells_.size());
+      cells_.emplace_back();
+    }
+    Cell& cell = cells_[static_cast<std::size_t>(slot)];
+    Surface<Dim>* surface = side_of(cell, direction);
+    if (surface == nullptr || surface->count >= params_.count_max) return;
+    if (surface->count == 0) ++size_;
+    surface->add(point_m, direction);
+    changed_.push_back({index, static_cast<int>(surface - cell.sides.data())});
+  }
+
+  /// Recomputes the normals of the surfaces that grew since the last call.
+  void refresh_normals() {
+    for (const Changed& changed : changed_) {
+      Cell& cell = cells_[static_cast<std::size_t>(slots_.value(changed.index))];
+      Surface<Dim>& surface = cell.sides[static_cast<std::size_t>(changed.side)];
+      if (surface.count == cell.refreshed_at[static_cast<std::size_t>(changed.side)]) continue;
+      cell.refreshed_at[static_cast<std::size_t>(changed.side)] = surface.count;
+      refresh_normal(changed.index, surface);
+    }
+    changed_.clear();
+  }
+
+  /// Calls visit(surface) for each surface in the cell that holds the point and in all its neighbours.
+  template <class Visit>
+  void for_each_near(const Point<Dim>& point_m, Visit&& visit) const {
+    for_each_around(slots_.lattice().index_of(point_m), visit);
+  }
+
+ private:
+  struct Cell {
+    std::array<Surface<Dim>, sides_max> sides;
+    std::array<int, sides_max> refreshed_at{};
+  };
+  struct Changed {
+    Index<Dim> index;
+    int side;
+  };
+
+  template <class Visit>
+  void for_each_around(const Index<Dim>& center, Visit&& visit) const {
+    constexpr int neighbours = Dim == 2 ? 9 : 27;
+    for (int n = 0; n < neighbours; ++n) {
+      Index<Dim> index = center;
+      for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3) index[axis] += rest % 3 - 1;
+      const std::int32_t slot = slots_.value(index);
+      if (slot < 0) continue;
+      for (const Surface<Dim>& surface : cells_[static_cast<std::size_t>(slot)].sides) {
+        if (surface.count == 0) break;
+        visit(surface);
+      }
+    }
+  }
+
+  /// The side a beam belongs to, or a free one; null when the cell has no room for another side.
+  [[nodiscard]] static Surface<Dim>* side_of(Cell& cell, const Point<Dim>& direction) {
+    for (Surface<Dim>& surface : cell.sides) {
+      if (surface.count == 0 || surface.faces(direction)) return &surface;
+    }
+    return nullptr;
+  }
+
+  struct Pool {
+    double count = 0.0;
+    Point<Dim> sum = Point<Dim>::Zero();
+    typename Surface<Dim>::Matrix moment = Surface<Dim>::Matrix::Zero();  // about the origin of the pool
+
+    void add(const Surface<Dim>& surface, const Point<Dim>& origin) {
+      const Point<Dim> mean = surface.mean_m - origin;
+      count += surface.count;
+      sum += surface.count * mean;
+      moment += surface.scatter_m2 + surface.count * mean * mean.transpose();
+    }
+  };
+
+  struct Fit {
+    Point<Dim> mean;
+    Point<Dim> normal;
+    double thickness_m2;
+    double spread_m2;
+  };
+
+  [[nodiscard]] static Fit fit(const Pool& pool) {
+    const Point<Dim> mean = pool.sum / pool.count;
+    const typename Surface<Dim>::Matrix covariance = pool.moment / pool.count - mean * mean.transpose();
+    Eigen::SelfAdjointEigenSolver<typename Surface<Dim>::Matrix> solver;
+    solver.computeDirect(covariance);
+    return {mean, solver.eigenvectors().col(0), std::max(0.0, solver.eigenvalues()[0]), solver.eigenvalues()[1]};
+  }
+
+  void refresh_normal(const Index<Dim>& index, Surface<Dim>& surface) {
+    const Point<Dim> origin = surface.mean_m;
+    const auto belongs = [&](const Surface<Dim>& other) {
+      return surface.view.dot(other.view) > 0.0 && (other.mean_m - origin).norm() <= params_.pool_radius_m;
+    };
+    Pool all;
+    for_each_around(index, [&](const Surface<Dim>& other) {
+      if (belongs(other)) all.add(other, origin);
+    });
+    const Fit rough = fit(all);
+    Pool near;
+    for_each_around(index, [&](const Surface<Dim>& other) {
+      const double offset_m = rough.normal.dot(other.mean_m - origin - rough.mean);
+      if (belongs(other) && std::abs(offset_m) <= params_.pool_offset_m) near.add(other, origin);
+    });
+    if (near.count < params_.planar_count_min) {
+      surface.planar = false;
+      return;
+    }
+    const Fit fine = fit(near);
+    surface.planar = fine.thickness_m2 <= params_.flatness * fine.spread_m2 + params_.roughness_m2 &&
+                     fine.spread_m2 >= params_.spread_min_m * params_.spread_min_m;
+    surface.normal = fine.normal.dot(surface.view) > 0.0 ? Point<Dim>(-fine.normal) : fine.normal;
+  }
+
+  Params params_;
+  Grid<std::int32_t, Dim> slots_;
+  std::vector<Cell> cells_;
+  std::vector<Changed> changed_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace incognita

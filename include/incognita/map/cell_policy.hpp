@@ -1,0 +1,35 @@
+/// What a map asks of the rule that updates one cell.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+namespace incognita {
+
+/// Numbers the scans of a map so that a cell can remember that a scan has already settled it. 0 is never a scan.
+using ScanStamp = std::uint16_t;
+
+/// A cell policy is a value with parameters; a `State` is what one cell remembers; a `Beam` holds what is constant
+/// along one beam. `residual_m` is measured range minus the distance from the sensor to the centre of the cell,
+/// h(x, m) of Seo et al., (6); `variance_m2` is the pose's variance projected on the beam, H Sigma H^T of (13).
+///
+/// Laws, checked by check_cell_policy_laws: State{} has log-odds exactly 0 (unknown); a hit of an unknown cell at an
+/// exact pose, with residual 0, raises it, and a pass far before the surface lowers it; log-odds stay finite under any
+/// sequence of hits and passes; equal sequences give equal states; forget_stamp leaves the log-odds as they are.
+/// A map hands a scan over in two rounds, first its hits, then its passes, so a policy may let hits win.
+/// hit and pass are O(1) and noexcept in spirit: they are the hot path. A const policy is safe to share among threads.
+template <class P>
+concept CellPolicy =
+    std::copyable<P> && std::is_trivially_copyable_v<typename P::State> &&
+    std::default_initializable<typename P::State> && (sizeof(typename P::State) <= 8) &&
+    requires(const P& policy, typename P::State& state, const typename P::State& seen,
+             const typename P::Beam& beam, double variance_m2, float residual_m, ScanStamp stamp) {
+      { policy.beam(variance_m2) } -> std::same_as<typename P::Beam>;
+      { policy.hit(state, beam, residual_m, stamp) } -> std::same_as<void>;
+      { policy.pass(state, beam, residual_m, stamp) } -> std::same_as<void>;
+      { policy.forget_stamp(state) } -> std::same_as<void>;
+      { P::log_odds(seen) } -> std::same_as<float>;
+    };
+
+}  // namespace incognita

@@ -1,0 +1,72 @@
+/// Log-odds cells with an inverse sensor model: fixed steps for a hit and a pass, whatever the pose's confidence.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "incognita/core/error.hpp"
+#include "incognita/map/cell_policy.hpp"
+
+namespace incognita {
+
+/// The classic occupancy cell (Moravec and Elfes; Thrun, Burgard and Fox, chapter 9): the decoupled baseline of
+/// Seo et al., section VI-B. It does not look at the residual or at the pose's variance.
+class LogOdds {
+ public:
+  struct Params {
+    float hit = 0.85F;           ///< added by a hit, > 0 (p = 0.7)
+    float pass = -0.4F;          ///< added by a pass, < 0 (p = 0.4)
+    float log_odds_min = -10.0F; ///< < 0
+    float log_odds_max = 10.0F;  ///< > 0
+    bool hits_win = true;        ///< passes of a scan leave alone what the same scan hit
+  };
+
+  struct State {
+    float log_odds = 0.0F;
+    ScanStamp hit_by = 0;  ///< the last scan that hit the cell
+  };
+
+  struct Beam {};
+
+  LogOdds() : LogOdds(Params{}) {}
+
+  /// Throws std::invalid_argument for parameters outside of the bounds stated with them.
+  explicit LogOdds(const Params& params) : params_(params) {
+    const auto finite_require = [](bool holds, const char* field, float value, const char* bound) {
+      require(holds && std::isfinite(value), "LogOdds", field, static_cast<double>(value), bound);
+    };
+    finite_require(params.hit > 0.0F, "hit", params.hit, "finite and > 0");
+    finite_require(params.pass < 0.0F, "pass", params.pass, "finite and < 0");
+    finite_require(params.log_odds_min < 0.0F, "log_odds_min", params.log_odds_min, "finite and < 0");
+    finite_require(params.log_odds_max > 0.0F, "log_odds_max", params.log_odds_max, "finite and > 0");
+  }
+
+  [[nodiscard]] const Params& params() const { return params_; }
+
+  [[nodiscard]] Beam beam(double /*variance_m2*/) const { return {}; }
+
+  void hit(State& state, const Beam& /*beam*/, float /*residual_m*/, ScanStamp stamp) const {
+    state.hit_by = stamp;
+    add(state, params_.hit);
+  }
+
+  void pass(State& state, const Beam& /*beam*/, float /*residual_m*/, ScanStamp stamp) const {
+    if (params_.hits_win && state.hit_by == stamp) return;
+    add(state, params_.pass);
+  }
+
+  void forget_stamp(State& state) const { state.hit_by = 0; }
+
+  [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }
+
+ private:
+  void add(State& state, float increment) const {
+    state.log_odds = std::clamp(state.log_odds + increment, params_.log_odds_min, params_.log_odds_max);
+  }
+
+  Params params_;
+};
+
+static_assert(CellPolicy<LogOdds>);
+
+}  // namespace incognita

@@ -1,0 +1,129 @@
+/// T-BayesMap: a cell updated by tempered DVL likelihoods, marginalised over the pose (Seo et al., Lemma 4.2).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "incognita/core/error.hpp"
+#include "incognita/map/cell_policy.hpp"
+#include "incognita/sensor/dvl.hpp"
+
+namespace incognita {
+
+/// The increment of a cell's log-odds by one beam is, from (14) and (15) with N the number of hits, this one included,
+///   dl = (1 - N/N_max) ln N(r; 0, S_o) - (N/N_max) ln N(r; 0, S_u),   S = H Sigma H^T + R.
+/// An uncertain pose widens S and so weakens the update; a cell that was hit before resists beams through it.
+///
+/// Rule::literal adds dl for every hit and pass, as printed. So printed, a beam through a cell with N = N_max can only
+/// raise it: walls thicken, and what was hit N_max times is never freed again. Rule::robust (the default) adds
+/// dl of a pass only where it lowers the cell, and lets passes free a saturated cell slowly: by erosion_log_odds, once
+/// a scan, unless the scan also hit it or the surface is near; what falls below 0 starts again with N = 0.
+class TBayes {
+ public:
+  enum class Rule { robust, literal };
+
+  struct Params {
+    Rule rule = Rule::robust;
+    DvlVariances dvl;
+    int hits_max = 3;                    ///< N_max, 1 to 255
+    float log_odds_min = -20.0F;         ///< < 0
+    float log_odds_max = 6.0F;           ///< > 0
+    float erosion_log_odds = 0.4F;       ///< robust: what a scan through a saturated cell takes, >= 0
+    double erosion_residual_m = 0.6;     ///< robust: erosion only where the beam goes on for longer, >= 0 ...
+    double erosion_residual_sigmas = 3;  ///< ... and for longer than this many sigmas of the pose along the beam
+  };
+
+  /// The paper's equation alone: no bounds, no erosion.
+  [[nodiscard]] static Params literal_params() {
+    Params params;
+    params.rule = Rule::literal;
+    params.log_odds_min = -std::numeric_limits<float>::max();
+    params.log_odds_max = std::numeric_limits<float>::max();
+    return params;
+  }
+
+  struct State {
+    float log_odds = 0.0F;
+    ScanStamp settled_by = 0;  ///< the last scan that hit or eroded the cell
+    std::uint8_t hits = 0;     ///< N_a of (14)
+  };
+
+  /// ln N(r; 0, S) = offset - r^2 precision_half, for the two occupancies of the cell.
+  struct Beam {
+    float occupied_offset, occupied_half_precision;
+    float unoccupied_offset, unoccupied_half_precision;
+    float erosion_residual_m;
+  };
+
+  TBayes() : TBayes(Params{}) {}
+
+  /// Throws std::invalid_argument for parameters outside of the bounds stated with them.
+  explicit TBayes(const Params& params) : params_(params) {
+    params_.dvl.validate();
+    require(params.hits_max >= 1 && params.hits_max <= 255, "TBayes", "hits_max", params.hits_max, "in 1..255");
+    require(params.log_odds_min < 0.0F && std::isfinite(params.log_odds_min), "TBayes", "log_odds_min",
+            static_cast<double>(params.log_odds_min), "finite and < 0");
+    require(params.log_odds_max > 0.0F && std::isfinite(params.log_odds_max), "TBayes", "log_odds_max",
+            static_cast<double>(params.log_odds_max), "finite and > 0");
+    require_non_negative("TBayes", "erosion_log_odds", static_cast<double>(params.erosion_log_odds));
+    require_non_negative("TBayes", "erosion_residual_m", params.erosion_residual_m);
+    require_non_negative("TBayes", "erosion_residual_sigmas", params.erosion_residual_sigmas);
+  }
+
+  [[nodiscard]] const Params& params() const { return params_; }
+
+  [[nodiscard]] Beam beam(double variance_m2) const {
+    const double occupied_m2 = variance_m2 + params_.dvl.occupied_m2;
+    const double unoccupied_m2 = variance_m2 + params_.dvl.unoccupied_m2;
+    return {static_cast<float>(log_normal_density(0.0, occupied_m2)),
+            static_cast<float>(0.5 / occupied_m2),
+            static_cast<float>(log_normal_density(0.0, unoccupied_m2)),
+            static_cast<float>(0.5 / unoccupied_m2),
+            static_cast<float>(std::max(params_.erosion_residual_m,
+                                        params_.erosion_residual_sigmas * std::sqrt(variance_m2)))};
+  }
+
+  /// (15) for the cell a beam ends in. The count is raised first, as Algorithm 1 does.
+  void hit(State& state, const Beam& beam, float residual_m, ScanStamp stamp) const {
+    if (state.hits < params_.hits_max) ++state.hits;
+    state.settled_by = stamp;
+    add(state, increment(state, beam, residual_m));
+  }
+
+  /// (15) for a cell a beam passes.
+  void pass(State& state, const Beam& beam, float residual_m, ScanStamp stamp) const {
+    if (params_.rule == Rule::literal) {
+      add(state, increment(state, beam, residual_m));
+    } else if (state.hits < params_.hits_max) {
+      add(state, std::min(0.0F, increment(state, beam, residual_m)));
+    } else if (state.settled_by != stamp && residual_m > beam.erosion_residual_m) {
+      state.settled_by = stamp;
+      add(state, -params_.erosion_log_odds);
+      if (state.log_odds < 0.0F) state.hits = 0;
+    }
+  }
+
+  void forget_stamp(State& state) const { state.settled_by = 0; }
+
+  [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }
+
+ private:
+  [[nodiscard]] float increment(const State& state, const Beam& beam, float residual_m) const {
+    const float unoccupied_weight = static_cast<float>(state.hits) / static_cast<float>(params_.hits_max);
+    const float r2 = residual_m * residual_m;
+    return (1.0F - unoccupied_weight) * (beam.occupied_offset - r2 * beam.occupied_half_precision) -
+           unoccupied_weight * (beam.unoccupied_offset - r2 * beam.unoccupied_half_precision);
+  }
+
+  void add(State& state, float increment) const {
+    state.log_odds = std::clamp(state.log_odds + increment, params_.log_odds_min, params_.log_odds_max);
+  }
+
+  Params params_;
+};
+
+static_assert(CellPolicy<TBayes>);
+
+}  // namespace incognita

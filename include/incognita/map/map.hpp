@@ -1,0 +1,130 @@
+/// A belief over the occupancy of the world, one cell policy's state a cell.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "incognita/geometry/pose.hpp"
+#include "incognita/grid/grid.hpp"
+#include "incognita/map/cell_policy.hpp"
+#include "incognita/map/cells/t_bayes.hpp"
+#include "incognita/map/occupancy.hpp"
+#include "incognita/map/scan_integration.hpp"
+
+namespace incognita {
+
+/// The probability that belongs to natural log-odds.
+[[nodiscard]] inline double probability_of_log_odds(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
+/// How a map is laid out, whatever its cells.
+struct MapParams {
+  double resolution_m = 0.1;  ///< > 0
+  /// How far behind the measured end point a hit lies, in cells, >= 0. 0 is the paper's literal form; without a push
+  /// walls become two cells thick (reading of Seo et al., (6)).
+  double hit_push_cells = 0.5;
+};
+
+/// The map's frame is that of the poses it is given; its lattice starts at the origin. The map grows as scans ask.
+/// Reading is safe from many threads; updating is not.
+template <CellPolicy Cell = TBayes, int Dim = 2>
+class Map {
+ public:
+  using CellType = Cell;
+  using State = typename Cell::State;
+  static constexpr int dimension = Dim;
+
+  /// Throws std::invalid_argument for bad parameters.
+  explicit Map(const MapParams& params = {}, Cell cell = Cell{})
+      : cell_(std::move(cell)), params_(params), grid_(Lattice<Dim>(params.resolution_m)) {
+    require_non_negative("Map", "hit_push_cells", params.hit_push_cells);
+  }
+
+  [[nodiscard]] const Cell& cell() const { return cell_; }
+  [[nodiscard]] const Grid<State, Dim>& grid() const { return grid_; }
+  [[nodiscard]] const Lattice<Dim>& lattice() const { return grid_.lattice(); }
+  [[nodiscard]] double resolution_m() const { return params_.resolution_m; }
+  [[nodiscard]] double hit_push_m() const { return params_.hit_push_cells * params_.resolution_m; }
+
+  /// The stamp of the last scan; 0 before the first.
+  [[nodiscard]] ScanStamp stamp() const { return stamp_; }
+
+  /// Natural log-odds of a cell; 0 where nothing was ever measured.
+  [[nodiscard]] float log_odds(const Index<Dim>& index) const { return Cell::log_odds(grid_.value(index)); }
+  [[nodiscard]] float log_odds(Offset offset) const { return Cell::log_odds(grid_[offset]); }
+  [[nodiscard]] double probability(const Index<Dim>& index) const {
+    return probability_of_log_odds(static_cast<double>(log_odds(index)));
+  }
+
+  /// Writes a scan, taken at T_map_sensor with the covariance of that pose (only the position's block is used: h does
+  /// not depend on the heading), into the cells that its beams meet. Invalid beams are ignored and counted.
+  /// Throws std::invalid_argument for a pose or covariance that is not finite or not positive semi-definite, and
+  /// std::length_error for a pose out of the lattice's reach; the map is then unchanged. O(cells passed), amortised.
+  ScanReport update(const Scan<Dim>& scan, const Pose<Dim>& T_map_sensor,
+                    const typename Pose<Dim>::Covariance& covariance) {
+    if (!T_map_sensor.is_finite()) throw std::invalid_argument("Map::update: the pose is not finite");
+    if (!is_covariance(covariance)) {
+      throw std::invalid_argument("Map::update: the covariance is not finite, symmetric and positive semi-definite");
+    }
+    require_reach(T_map_sensor.position(), scan.range_max_m() + hit_push_m());
+    grid_.grow_to_include(cells_in_reach(lattice(), scan, T_map_sensor, hit_push_m()));
+    advance_stamp();
+    Writer writer{grid_};
+    return integrate_scan<Cell, Dim>(cell_, lattice(), writer, scan, T_map_sensor,
+                                     covariance.template topLeftCorner<Dim, Dim>(), hit_push_m(), stamp_);
+  }
+
+  /// Makes room for a box of points, in metres, so that prediction there needs no growth.
+  void reserve(const Box<Point<Dim>>& box_m) {
+    require_reach(box_m.lower, 0.0);
+    require_reach(box_m.upper, 0.0);
+    grid_.grow_to_include(lattice().cells_of(box_m));
+  }
+
+ private:
+  struct Writer {
+    Grid<State, Dim>& grid;
+    State& state(const Index<Dim>& index) { return grid[grid.offset_of(index)]; }
+  };
+
+  void require_reach(const Point<Dim>& point_m, double margin_m) const {
+    const double reach_m = resolution_m() * static_cast<double>(std::numeric_limits<int>::max() / 2);
+    if (!(point_m.cwiseAbs().maxCoeff() + margin_m < reach_m)) {
+      throw std::length_error("Map: a point lies beyond " + std::to_string(reach_m) + " m from the map's origin");
+    }
+  }
+
+  /// Stamps stay clear of the upper end of their type by as many scans as a prediction may add (Overlay). When they
+  /// run out, every cell forgets its stamp: once in hours of scans.
+  void advance_stamp() {
+    if (stamp_ >= stamp_last) {
+      for (State& state : grid_.values()) cell_.forget_stamp(state);
+      stamp_ = 0;
+    }
+    ++stamp_;
+  }
+
+ public:
+  static constexpr ScanStamp stamp_last = 60000;
+
+ private:
+  Cell cell_;
+  MapParams params_;
+  Grid<State, Dim> grid_;
+  ScanStamp stamp_ = 0;
+};
+
+/// Every cell of the map's box in one word.
+template <CellPolicy Cell, int Dim>
+[[nodiscard]] OccupancyGrid<Dim> classify(const Map<Cell, Dim>& map, const OccupancyThresholds& thresholds = {}) {
+  thresholds.validate();
+  OccupancyGrid<Dim> occupancy(map.lattice(), map.grid().box(), Occupancy::unknown);
+  for (Offset offset = 0; offset < static_cast<Offset>(occupancy.size()); ++offset) {
+    occupancy[offset] = thresholds.classify(map.log_odds(offset));
+  }
+  return occupancy;
+}
+
+}  // namespace incognita
