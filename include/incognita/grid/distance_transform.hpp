@@ -23,27 +23,40 @@ struct EnvelopePoint {
 /// Replaces heights[x] by the smallest (x - q)^2 + heights[q] over all q. O(n); `hull` is scratch of the same
 /// size. The comparisons are of integers below 2^53, so they are exact for lines of up to 10^5 cells.
 inline void take_lower_envelope(std::vector<float>& heights, std::vector<EnvelopePoint>& hull) {
-  constexpr float far = std::numeric_limits<float>::infinity();
+  constexpr float infinite = std::numeric_limits<float>::infinity();
   const std::size_t n = heights.size();
   std::size_t count = 0;
-  for (std::size_t q = 0; q < n; ++q) {
-    if (heights[q] == far) continue;
-    const double at = static_cast<double>(q);
-    const EnvelopePoint point{at, at * at + static_cast<double>(heights[q])};
-    while (count >= 2) {
-      const EnvelopePoint& a = hull[count - 2];
-      const EnvelopePoint& b = hull[count - 1];
-      if ((b.sum - a.sum) * (point.at - b.at) < (point.sum - b.sum) * (b.at - a.at)) break;
+  EnvelopePoint a{};  // hull[count - 2] and
+  EnvelopePoint b{};  // hull[count - 1], kept at hand
+  for (std::size_t i = 0; i < n; ++i) {
+    if (heights[i] == infinite) continue;
+    const double at = static_cast<double>(static_cast<int>(i));
+    const EnvelopePoint point{at, at * at + static_cast<double>(heights[i])};
+    while (count >= 2 && (b.sum - a.sum) * (point.at - b.at) >= (point.sum - b.sum) * (b.at - a.at)) {
       --count;
+      b = a;
+      if (count >= 2) a = hull[count - 2];
     }
+    a = b;
+    b = point;
     hull[count++] = point;
   }
   if (count == 0) return;
-  std::size_t k = 0;
-  for (std::size_t q = 0; q < n; ++q) {
-    const double x = static_cast<double>(q);
-    while (k + 1 < count && hull[k + 1].sum - hull[k].sum <= 2.0 * x * (hull[k + 1].at - hull[k].at)) ++k;
-    heights[q] = static_cast<float>(hull[k].sum + x * (x - 2.0 * hull[k].at));
+  // The envelope follows hull[k] up to its crossing with hull[k + 1].
+  std::size_t q = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::size_t end = n;
+    if (k + 1 < count) {
+      const double crossing = (hull[k + 1].sum - hull[k].sum) / (2.0 * (hull[k + 1].at - hull[k].at));
+      if (crossing < static_cast<double>(q)) continue;
+      end = std::min(n, static_cast<std::size_t>(crossing) + 1);
+    }
+    const float at = static_cast<float>(hull[k].at);
+    const float height = static_cast<float>(hull[k].sum - hull[k].at * hull[k].at);
+    for (; q < end; ++q) {
+      const float dx = static_cast<float>(static_cast<int>(q)) - at;
+      heights[q] = height + dx * dx;
+    }
   }
 }
 
@@ -56,8 +69,8 @@ inline void take_lower_envelope(std::vector<float>& heights, std::vector<Envelop
 /// of Sampled Functions (2012).
 template <class Value, int Dim, class IsSource>
 [[nodiscard]] Grid<float, Dim> distance_transform_m(const Grid<Value, Dim>& grid, IsSource&& is_source) {
-  constexpr float far = std::numeric_limits<float>::infinity();
-  Grid<float, Dim> result(grid.lattice(), grid.box(), far);
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  Grid<float, Dim> result(grid.lattice(), grid.box(), infinite);
   if (grid.size() == 0) return result;
 
   // Along the last axis distances are counted, a whole layer (in the plane: a row) at a time.
@@ -65,7 +78,7 @@ template <class Value, int Dim, class IsSource>
   float* const distances = result.values().data();
   const Offset layer = grid.stride(Dim - 1);
   const Offset size = static_cast<Offset>(grid.size());
-  for (Offset i = 0; i < layer; ++i) distances[i] = is_source(values[i]) ? 0.0F : far;
+  for (Offset i = 0; i < layer; ++i) distances[i] = is_source(values[i]) ? 0.0F : infinite;
   for (Offset i = layer; i < size; ++i)
     distances[i] = is_source(values[i]) ? 0.0F : distances[i - layer] + 1.0F;
   for (Offset i = size - layer - 1; i >= 0; --i)
