@@ -26,10 +26,11 @@ class DvlEkf {
     /// Q of (7). Larger than the odometry's own noise: errors of a map are correlated over scans, and a filter matched
     /// to the odometry grows sure of them (reading of Seo et al.: NEES 200 to 1400).
     MotionNoise noise{0.0632, 0.0632};
-    /// The start pose defines the map's frame, so it is known: it is held for this many scans, or until the robot has
-    /// moved by start_hold_distance_m, while the first surfaces are measured from a pose without error.
+    /// The start pose defines the map's frame, so it is known: it is held for this many scans, or until odometry says
+    /// that the robot has left it, while the first surfaces are measured from a pose without error.
     int start_scans_held = 20;
     double start_hold_distance_m = 0.1;
+    double start_hold_turn_rad = 0.05;
     Form form = Form::registration;
     /// false: the decoupled baseline A2, A4 of section VI-B. A hit counts with R_o alone where the cell is occupied
     /// with more than decoupled_probability_min, and not at all elsewhere.
@@ -45,12 +46,14 @@ class DvlEkf {
   DvlEkf() : DvlEkf(Params{}) {}
 
   /// Throws std::invalid_argument for parameters outside of their bounds; the noise must be > 0.
-  explicit DvlEkf(const Params& params) : params_(params), belief_(params.start), surfaces_(params.surfaces) {
+  explicit DvlEkf(const Params& params)
+      : params_(params), belief_(params.start), driven_(params.start), surfaces_(params.surfaces) {
     require_belief("DvlEkf", params.start);
     require_positive("DvlEkf", "noise.position_m_per_sqrt_s", params.noise.position_m_per_sqrt_s);
     require_positive("DvlEkf", "noise.yaw_rad_per_sqrt_s", params.noise.yaw_rad_per_sqrt_s);
     require(params.start_scans_held >= 0, "DvlEkf", "start_scans_held", params.start_scans_held, ">= 0");
     require_non_negative("DvlEkf", "start_hold_distance_m", params.start_hold_distance_m);
+    require_non_negative("DvlEkf", "start_hold_turn_rad", params.start_hold_turn_rad);
     require(params.decoupled_probability_min >= 0.0 && params.decoupled_probability_min < 1.0, "DvlEkf",
             "decoupled_probability_min", params.decoupled_probability_min, "in [0, 1)");
     params.registration.validate();
@@ -68,15 +71,20 @@ class DvlEkf {
 
   void predict(const Pose2& increment, double duration_s) {
     belief_ = propagate(belief_, increment, params_.noise, duration_s);
+    if (!is_ready()) driven_ = propagate(driven_, increment, params_.noise, duration_s);
   }
 
   /// Corrects the belief by a scan; `map` must not have taken the scan yet.
   template <class MapType>
   CorrectionReport correct(const Scan<2>& scan, const MapType& map) {
-    if (holds_start()) {
-      ++scans_held_;
-      belief_ = params_.start;
-      return {};
+    if (!is_ready()) {
+      if (stands_at_start()) {
+        ++scans_held_;
+        belief_ = params_.start;
+        return {};
+      }
+      scans_held_ = params_.start_scans_held;
+      belief_ = driven_;
     }
     return params_.form == Form::registration ? correct_by_registration(scan, map) : correct_by_rays(scan, map);
   }
@@ -127,9 +135,10 @@ class DvlEkf {
     params.imagined.mixture = MixtureVariance::occupied_only;
   }
 
-  [[nodiscard]] bool holds_start() const {
-    return !is_ready() &&
-           (belief_.pose.position() - params_.start.pose.position()).norm() <= params_.start_hold_distance_m;
+  [[nodiscard]] bool stands_at_start() const {
+    const Pose2& start = params_.start.pose;
+    return (driven_.pose.position() - start.position()).norm() <= params_.start_hold_distance_m &&
+           std::abs(angle_between_rad(start.yaw_rad, driven_.pose.yaw_rad)) <= params_.start_hold_turn_rad;
   }
 
   template <class MapType>
@@ -180,6 +189,7 @@ class DvlEkf {
 
   Params params_;
   PoseBelief belief_;
+  PoseBelief driven_;  ///< by odometry alone, since the start, until ready
   SurfaceMap<2> surfaces_;
   int scans_held_ = 0;
 };

@@ -18,13 +18,8 @@ struct Information {
   }
 };
 
-/// The inverse of a positive definite 3 x 3 matrix, symmetric to the last bit.
-[[nodiscard]] inline Eigen::Matrix3d symmetric_inverse(const Eigen::Matrix3d& matrix) {
-  const Eigen::Matrix3d inverse = matrix.inverse();
-  return 0.5 * (inverse + inverse.transpose());
-}
-
-/// (11a) of Seo et al. without inverting the prior, which may be singular: (P^-1 + J)^-1 = (I + P J)^-1 P.
+/// (11a) of Seo et al. without inverting the prior, which may be singular: (P^-1 + J)^-1 = (I + P J)^-1 P. Symmetric to
+/// the last bit.
 [[nodiscard]] inline Eigen::Matrix3d updated_covariance(const Eigen::Matrix3d& prior, const Eigen::Matrix3d& information) {
   const Eigen::Matrix3d gain = (Eigen::Matrix3d::Identity() + prior * information).inverse();
   const Eigen::Matrix3d posterior = gain * prior;

@@ -101,7 +101,6 @@ struct SurfaceMatch {
 template <class Probability>
 [[nodiscard]] Registration register_scan(const PoseBelief& prior, const Scan<2>& scan, const SurfaceMap<2>& surfaces,
                                          Probability&& occupied_probability, const RegistrationParams& params) {
-  const Eigen::Matrix3d prior_information = symmetric_inverse(prior.covariance);
   Registration result{prior, 0, 0.0};
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
     const Eigen::Matrix2d rotation = result.belief.pose.rotation();
@@ -133,13 +132,14 @@ template <class Probability>
     }
     if (associations == 0) return {prior, 0, 0.0};
     const double tempered = params.gamma / static_cast<double>(associations);
-    const Eigen::Vector3d from_prior(prior.pose.x_m - result.belief.pose.x_m, prior.pose.y_m - result.belief.pose.y_m,
-                                     angle_between_rad(result.belief.pose.yaw_rad, prior.pose.yaw_rad));
-    result.belief.covariance = symmetric_inverse(prior_information + tempered * information.matrix);
+    const Eigen::Vector3d from_prior(result.belief.pose.x_m - prior.pose.x_m, result.belief.pose.y_m - prior.pose.y_m,
+                                     angle_between_rad(prior.pose.yaw_rad, result.belief.pose.yaw_rad));
+    // The Gauss-Newton step counted from the prior, which needs no inverse of the prior's covariance.
+    result.belief.covariance = updated_covariance(prior.covariance, tempered * information.matrix);
     const Eigen::Vector3d step =
-        result.belief.covariance * (prior_information * from_prior + tempered * information.vector);
-    result.belief.pose = {result.belief.pose.x_m + step.x(), result.belief.pose.y_m + step.y(),
-                          wrap_angle_rad(result.belief.pose.yaw_rad + step.z())};
+        result.belief.covariance * (tempered * (information.matrix * from_prior + information.vector));
+    result.belief.pose = {prior.pose.x_m + step.x(), prior.pose.y_m + step.y(),
+                          wrap_angle_rad(prior.pose.yaw_rad + step.z())};
     result.associations = associations;
     result.residual_rms_m = std::sqrt(squares_m2 / static_cast<double>(associations));
   }

@@ -76,7 +76,8 @@ class Map {
                                      covariance.template topLeftCorner<Dim, Dim>(), hit_push_m(), stamp_);
   }
 
-  /// Makes room for a box of points, in metres, so that prediction there needs no growth.
+  /// Makes room for a box of points, in metres, so that prediction there needs no growth. Throws std::length_error for
+  /// points out of the lattice's reach.
   void reserve(const Box<Point<Dim>>& box_m) {
     require_reach(box_m.lower, 0.0);
     require_reach(box_m.upper, 0.0);
@@ -91,7 +92,7 @@ class Map {
 
   void require_reach(const Point<Dim>& point_m, double margin_m) const {
     const double reach_m = resolution_m() * static_cast<double>(std::numeric_limits<int>::max() / 2);
-    if (!(point_m.cwiseAbs().maxCoeff() + margin_m < reach_m)) {
+    if (!(point_m.array().abs() + margin_m < reach_m).all()) {
       throw std::length_error("Map: a point lies beyond " + std::to_string(reach_m) + " m from the map's origin");
     }
   }

@@ -66,7 +66,8 @@ ScanReport integrate_scan(const Cell& policy, const Lattice<Dim>& lattice, Cells
   return report;
 }
 
-/// The box of cells that integrate_scan may touch.
+/// A box that holds every cell integrate_scan may touch, with a cell to spare on each side: an end point on the face of a
+/// cell may be rounded to either side of it.
 template <int Dim>
 [[nodiscard]] IndexBox<Dim> cells_in_reach(const Lattice<Dim>& lattice, const Scan<Dim>& scan,
                                            const Pose<Dim>& T_map_sensor, double push_m) {
@@ -79,7 +80,8 @@ template <int Dim>
     reach.lower = reach.lower.cwiseMin(end);
     reach.upper = reach.upper.cwiseMax(end);
   }
-  return lattice.cells_of(reach);
+  const IndexBox<Dim> cells = lattice.cells_of(reach);
+  return {(cells.lower.array() - 1).matrix(), (cells.upper.array() + 1).matrix()};
 }
 
 }  // namespace incognita

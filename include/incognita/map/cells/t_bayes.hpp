@@ -62,6 +62,8 @@ class TBayes {
   /// Throws std::invalid_argument for parameters outside of the bounds stated with them.
   explicit TBayes(const Params& params) : params_(params) {
     params_.dvl.validate();
+    // Beam's half precision is a float.
+    require(params.dvl.occupied_m2 >= 1e-12, "TBayes", "dvl.occupied_m2", params.dvl.occupied_m2, ">= 1e-12");
     require(params.hits_max >= 1 && params.hits_max <= 255, "TBayes", "hits_max", params.hits_max, "in 1..255");
     require(params.log_odds_min < 0.0F && std::isfinite(params.log_odds_min), "TBayes", "log_odds_min",
             static_cast<double>(params.log_odds_min), "finite and < 0");
