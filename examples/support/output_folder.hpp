@@ -1,0 +1,92 @@
+/// A folder for the files of a run, in which files appear only when all of them are complete.
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace examples {
+
+/// The folder cannot be written; one line that says why.
+struct OutputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Creates the folder and a hidden place within it. Write files to staged(name), then publish() moves them
+/// all to their names. Without publish, the destructor leaves everything as it was: no files, and no folders
+/// that were not there before.
+class OutputFolder {
+ public:
+  /// Throws OutputError when the folder cannot be created or written.
+  explicit OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+    if (folder_.empty()) throw OutputError("the output folder has no name");
+    staging_ = folder_ / (".incomplete-" + std::to_string(getpid()));
+    std::filesystem::path existing = std::filesystem::absolute(staging_).lexically_normal();
+    std::error_code error;
+    while (!std::filesystem::exists(existing, error) && !error) {
+      created_.push_back(existing);
+      existing = existing.parent_path();
+    }
+    std::filesystem::create_directories(staging_, error);
+    if (error) {
+      undo();
+      throw OutputError("cannot write to " + folder_.string() + ": " + error.message());
+    }
+  }
+
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  ~OutputFolder() {
+    if (!published_) undo();
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
+  /// Where to write the file that will be path() / name.
+  [[nodiscard]] std::filesystem::path staged(const std::string& name) const { return staging_ / name; }
+
+  /// Moves the staged files to their names and returns their paths, sorted. Throws OutputError when one
+  /// cannot be moved.
+  std::vector<std::filesystem::path> publish() {
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(staging_)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const std::filesystem::path& file : files) {
+      const std::filesystem::path target = folder_ / file.filename();
+      if (std::filesystem::is_directory(target, error)) {
+        throw OutputError("cannot write " + target.string() + ": it is a folder");
+      }
+    }
+    for (std::filesystem::path& file : files) {
+      const std::filesystem::path target = folder_ / file.filename();
+      std::filesystem::rename(file, target, error);
+      if (error) throw OutputError("cannot write " + target.string() + ": " + error.message());
+      file = target;
+    }
+    std::filesystem::remove(staging_, error);
+    published_ = true;
+    return files;
+  }
+
+ private:
+  void undo() const noexcept {
+    std::error_code ignored;
+    std::filesystem::remove_all(staging_, ignored);
+    for (const std::filesystem::path& folder : created_) std::filesystem::remove(folder, ignored);
+  }
+
+  std::filesystem::path folder_;
+  std::filesystem::path staging_;
+  std::vector<std::filesystem::path> created_;  // the deepest first
+  bool published_ = false;
+};
+
+}  // namespace examples
