@@ -56,7 +56,7 @@ TEST_CASE("The distance transform equals brute force in the plane", "[grid]") {
   Random random(1);
   for (const double share : {0.0, 0.002, 0.02, 0.3, 1.0}) {
     for (int trial = 0; trial < 8; ++trial) {
-      const Index<2> extent(1 + static_cast<int>(random.index(40)), 1 + static_cast<int>(random.index(40)));
+      const Index<2> extent{1 + static_cast<int>(random.index(40)), 1 + static_cast<int>(random.index(40))};
       check_against_brute_force<2>(random_grid<2>(random, extent, share));
     }
   }
@@ -66,8 +66,8 @@ TEST_CASE("The distance transform equals brute force in space", "[grid]") {
   Random random(2);
   for (const double share : {0.0, 0.002, 0.02, 0.3}) {
     for (int trial = 0; trial < 5; ++trial) {
-      const Index<3> extent(1 + static_cast<int>(random.index(13)), 1 + static_cast<int>(random.index(13)),
-                            1 + static_cast<int>(random.index(13)));
+      const Index<3> extent{1 + static_cast<int>(random.index(13)), 1 + static_cast<int>(random.index(13)),
+                            1 + static_cast<int>(random.index(13))};
       check_against_brute_force<3>(random_grid<3>(random, extent, share));
     }
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -27,7 +28,7 @@ class Grid {
  public:
   static constexpr int dimension = Dim;
   /// No grid holds more cells than this: a wild coordinate must not ask for all of the memory.
-  static constexpr std::int64_t cell_count_max = std::int64_t{1} << 31;
+  static constexpr std::int64_t cell_count_max = std::numeric_limits<int>::max();
 
   /// Cells of `box`, each `fill`. Throws std::length_error above cell_count_max.
   explicit Grid(const Lattice<Dim>& lattice, const IndexBox<Dim>& box = {}, Value fill = Value{})
@@ -85,15 +86,7 @@ class Grid {
   bool grow_to_include(const IndexBox<Dim>& needed) {
     if (box_.contains(needed)) return false;
     IndexBox<Dim> grown = enclosing_box(box_, needed);
-    for (int axis = 0; axis < Dim && !box_.empty(); ++axis) {
-      const int margin = box_.extent()[axis] / 2;
-      if (grown.lower[axis] < box_.lower[axis]) {
-        grown.lower[axis] = std::min(grown.lower[axis], box_.lower[axis] - margin);
-      }
-      if (grown.upper[axis] > box_.upper[axis]) {
-        grown.upper[axis] = std::max(grown.upper[axis], box_.upper[axis] + margin);
-      }
-    }
+    if (const IndexBox<Dim> roomy = with_margins(grown); cell_count(roomy) <= cell_count_max) grown = roomy;
     Grid larger(lattice_, grown, fill_);
     if (!box_.empty()) copy_rows_to(larger);
     *this = std::move(larger);
@@ -101,17 +94,44 @@ class Grid {
   }
 
  private:
-  [[nodiscard]] static std::int64_t checked_count(const IndexBox<Dim>& box) {
+  /// The cells of a box, or cell_count_max + 1 when there are more.
+  [[nodiscard]] static std::int64_t cell_count(const IndexBox<Dim>& box) {
     if (box.empty()) return 0;
     std::int64_t count = 1;
     for (int axis = 0; axis < Dim; ++axis) {
       const std::int64_t extent = std::int64_t{box.upper[axis]} - std::int64_t{box.lower[axis]};
-      if (extent > cell_count_max / count) {
-        throw std::length_error("Grid: a box of more than " + std::to_string(cell_count_max) + " cells");
-      }
+      if (extent > cell_count_max / count) return cell_count_max + 1;
       count *= extent;
     }
     return count;
+  }
+
+  [[nodiscard]] static std::int64_t checked_count(const IndexBox<Dim>& box) {
+    const std::int64_t count = cell_count(box);
+    if (count > cell_count_max) {
+      throw std::length_error("Grid: a box of more than " + std::to_string(cell_count_max) + " cells");
+    }
+    return count;
+  }
+
+  /// `grown`, which holds the grid's box, with each side that moves moved by at least half of the grid's extent, as far
+  /// as indices go.
+  [[nodiscard]] IndexBox<Dim> with_margins(IndexBox<Dim> grown) const {
+    using Limits = std::numeric_limits<int>;
+    for (int axis = 0; axis < Dim && !box_.empty(); ++axis) {
+      const std::int64_t lower = box_.lower[axis];
+      const std::int64_t upper = box_.upper[axis];
+      const std::int64_t margin = (upper - lower) / 2;
+      if (grown.lower[axis] < lower) {
+        const std::int64_t moved = std::max<std::int64_t>(lower - margin, Limits::min());
+        grown.lower[axis] = std::min(grown.lower[axis], static_cast<int>(moved));
+      }
+      if (grown.upper[axis] > upper) {
+        const std::int64_t moved = std::min<std::int64_t>(upper + margin, Limits::max());
+        grown.upper[axis] = std::max(grown.upper[axis], static_cast<int>(moved));
+      }
+    }
+    return grown;
   }
 
   void resize(const IndexBox<Dim>& box) {
