@@ -1,0 +1,105 @@
+/// The laws of CellPolicy as a check that any test can call, for the library's policies and for a user's.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <string_view>
+
+#include "incognita/core/random.hpp"
+#include "incognita/map/cell_policy.hpp"
+#include "incognita/testing/law_report.hpp"
+
+namespace incognita {
+
+/// Checks the laws on the page of CellPolicy (map/cell_policy.hpp) on fixed seeded sequences of hits and
+/// passes, with residuals up to 100 m and poses from exact to a variance of 100 m^2, and on 20,000 equal
+/// updates in a row. A policy that passes may still break a law on another sequence.
+template <CellPolicy Policy>
+[[nodiscard]] LawReport check_cell_policy_laws(const Policy& policy) {
+  using State = typename Policy::State;
+  LawReport report;
+  const auto check_finite = [&report](const State& state, std::string_view sequence, int step) {
+    const float log_odds = Policy::log_odds(state);
+    if (std::isfinite(log_odds)) return true;
+    std::ostringstream text;
+    text << "log-odds stay finite: " << log_odds << " after " << step + 1 << " updates, " << sequence;
+    report.check(false, text.str());
+    return false;
+  };
+
+  const State unknown{};
+  report.check(Policy::log_odds(unknown) == 0.0F, "a new cell has log-odds 0");
+
+  const auto exact = policy.beam(0.0);
+  State hit{};
+  policy.hit(hit, exact, 0.0F, 1);
+  report.check(Policy::log_odds(hit) > 0.0F, "a hit at an exact pose with residual 0 raises an unknown cell");
+  State passed{};
+  policy.pass(passed, exact, 5.0F, 1);
+  report.check(Policy::log_odds(passed) < 0.0F, "a pass 5 m before the surface lowers an unknown cell");
+
+  for (const double variance_m2 : {0.0, 1.0}) {
+    const auto beam = policy.beam(variance_m2);
+    for (const float residual_m : {0.0F, 0.3F, 100.0F}) {
+      State hits{};
+      State passes{};
+      bool hits_finite = true;
+      bool passes_finite = true;
+      for (int step = 0; step < 20000; ++step) {
+        const auto stamp = static_cast<ScanStamp>(step + 1);
+        policy.hit(hits, beam, residual_m, stamp);
+        policy.pass(passes, beam, residual_m, stamp);
+        hits_finite = hits_finite && check_finite(hits, "hits alone", step);
+        passes_finite = passes_finite && check_finite(passes, "passes alone", step);
+      }
+    }
+  }
+
+  const Policy copy = policy;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Random random(seed);
+    State state{};
+    State twin{};
+    bool finite = true;
+    bool equal = true;
+    bool keeps = true;
+    bool renews = true;
+    ScanStamp stamp = 1;
+    for (int step = 0; step < 2000; ++step) {
+      const double variance_m2 = std::pow(10.0, random.uniform(-8.0, 2.0));
+      const bool is_hit = random.uniform() < 0.3;
+      const float residual_m = static_cast<float>(
+          is_hit ? random.normal(0.0, 1.0) : (random.uniform() < 0.9 ? random.uniform(-0.5, 10.0) : 100.0));
+      if (random.uniform() < 0.5) ++stamp;
+      const auto update = [&](const Policy& with, State& cell) {
+        const auto beam = with.beam(variance_m2);
+        if (is_hit) {
+          with.hit(cell, beam, residual_m, stamp);
+        } else {
+          with.pass(cell, beam, residual_m, stamp);
+        }
+      };
+      update(policy, state);
+      update(copy, twin);
+      finite = finite && check_finite(state, "hits and passes", step);
+      equal = equal && Policy::log_odds(state) == Policy::log_odds(twin);
+
+      State forgetful = state;
+      policy.forget_stamp(forgetful);
+      keeps = keeps && Policy::log_odds(forgetful) == Policy::log_odds(state);
+      // The stamp that the cell has just seen must now mean no more to it than one that it never saw.
+      State other = forgetful;
+      policy.pass(forgetful, policy.beam(0.0), 5.0F, stamp);
+      policy.pass(other, policy.beam(0.0), 5.0F, static_cast<ScanStamp>(stamp + 1));
+      renews = renews && Policy::log_odds(forgetful) == Policy::log_odds(other);
+    }
+    if (!finite) continue;
+    report.check(equal, "equal sequences give equal states");
+    report.check(keeps, "forget_stamp leaves the log-odds as they are");
+    report.check(renews, "forget_stamp makes every stamp new");
+  }
+  return report;
+}
+
+}  // namespace incognita
