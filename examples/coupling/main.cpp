@@ -1,0 +1,130 @@
+/// Draws the toy cases of Figs. 5 to 7 of Seo et al.: how an uncertain pose weakens map updates, how the
+/// pose's covariance grows out of known surroundings, and candidate paths ranked by their Behavioral
+/// information gain.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <exception>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "coupling/candidates.hpp"
+#include "coupling/drive.hpp"
+#include "coupling/update_strength.hpp"
+#include "incognita/entropy/behavioral.hpp"
+#include "support/output_folder.hpp"
+
+namespace {
+
+void print(const std::vector<coupling::UpdateStrength>& strengths) {
+  std::cout << "Probability of a cell, from an unknown map\n"
+            << "  pose sigma    hit after 1, 2, 3 scans    passed once, at " << coupling::kResiduals_m[0]
+            << ", " << coupling::kResiduals_m[1] << " m before the hit\n";
+  for (const double sigma_m : {0.0, 0.1, 0.3, 1.0, 2.0, 3.0}) {
+    const coupling::UpdateStrength strength = coupling::measure_update_strength(sigma_m);
+    std::cout << std::setw(10) << sigma_m << " m ";
+    for (const double l : strength.hit_log_odds) {
+      std::cout << std::setw(8) << incognita::probability_of_log_odds(l);
+    }
+    std::cout << "      ";
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::cout << std::setw(8) << incognita::probability_of_log_odds(strength.passed_log_odds[i]);
+    }
+    std::cout << '\n';
+  }
+  if (const std::optional<double> sigma_m = coupling::sigma_of_sign_change_m(strengths)) {
+    std::cout << "  from " << *sigma_m << " m on, a first hit lowers the cell\n";
+  }
+}
+
+void print(const std::vector<coupling::Drive>& drives) {
+  std::cout << "\nTrace of the position's covariance on a drive of " << coupling::kDriveTo_m
+            << " m past the edge of the known map\n"
+            << "  surroundings           scans a metre   at first     grown   x 3 after   x 10 after\n";
+  const auto distance = [](const std::optional<double>& distance_m) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1);
+    distance_m ? text << *distance_m << " m" : text << "-";
+    return text.str();
+  };
+  for (const coupling::Drive& drive : drives) {
+    std::cout << "  " << std::left << std::setw(23) << name_of(drive.surroundings) << std::right
+              << std::setw(13) << drive.scans_per_m << std::setw(8) << drive.initial_trace_m2() << " m2   x"
+              << std::setw(6) << drive.growth() << std::setw(12) << distance(drive.distance_of_growth_m(3.0))
+              << std::setw(13) << distance(drive.distance_of_growth_m(10.0)) << '\n';
+  }
+}
+
+void print(const coupling::Ranking& ranking, double alpha) {
+  std::cout << "\nCandidates of " << coupling::kCandidateLength_m << " m by information gain, alpha " << alpha
+            << "\n  path                                   BIG   with an exact pose   sigma at the end\n";
+  for (const coupling::RankedPath& path : ranking.paths) {
+    std::cout << "  " << std::left << std::setw(34) << path.name << std::right << std::fixed
+              << std::setprecision(1) << std::setw(8) << path.gain_nats << std::setw(17)
+              << path.gain_exact_pose_nats << " nats" << std::setprecision(2) << std::setw(14)
+              << incognita::position_sigma_m(path.beliefs.back().covariance) << " m\n"
+              << std::defaultfloat;
+  }
+}
+
+void run(const incognita::Behavioral& entropy, const std::filesystem::path& folder) {
+  const std::vector<coupling::UpdateStrength> strengths = coupling::measure_update_strengths();
+  const std::vector<coupling::Drive> drives = coupling::all_drives();
+  const coupling::Ranking ranking = coupling::rank_candidates(incognita::EntropyTable(entropy));
+
+  examples::OutputFolder output(folder);
+  coupling::write_update_strengths(output.staged("map_updates.csv"), strengths);
+  coupling::draw_update_strengths(output.staged("map_updates.png"), strengths);
+  coupling::write_drives(output.staged("drives.csv"), drives);
+  coupling::draw_drives(output.staged("drives.png"), drives);
+
+  std::cout << std::setprecision(3);
+  print(strengths);
+  print(drives);
+  print(ranking, entropy.alpha());
+  std::cout << '\n';
+  for (const std::filesystem::path& file : output.publish()) std::cout << file.string() << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string folder = "output/coupling";
+  double alpha = 1.0;
+  CLI::App app(
+      "Draws toy cases of coupled localisation and mapping: how an uncertain pose weakens map updates, how "
+      "its "
+      "covariance grows out of known surroundings, and candidate paths ranked by Behavioral information "
+      "gain.");
+  app.add_option("--output", folder, "folder for the pictures (PNG) and their numbers (CSV)")
+      ->type_name("DIR")
+      ->capture_default_str();
+  app.add_option("--alpha", alpha, "Behavioral entropy's alpha, > 0; 1 is Shannon")
+      ->type_name("A")
+      ->capture_default_str();
+  std::optional<incognita::Behavioral> entropy;
+  try {
+    app.parse(argc, argv);
+    entropy.emplace(alpha);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    std::cerr << "coupling: " << error.what() << '\n';
+    return 2;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "coupling: " << error.what() << '\n';
+    return 2;
+  }
+  try {
+    run(*entropy, folder);
+  } catch (const examples::OutputError& error) {
+    std::cerr << "coupling: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "coupling: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
