@@ -1,0 +1,144 @@
+/// Following a path with a robot that drives along its heading and turns.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "incognita/core/angles.hpp"
+#include "incognita/core/error.hpp"
+#include "incognita/geometry/pose2.hpp"
+#include "incognita/geometry/twist2.hpp"
+#include "incognita/planning/polyline.hpp"
+
+namespace incognita {
+
+/// What a robot can do and how it follows.
+struct FollowParams {
+  double speed_max_m_per_s = 1.0;
+  double turn_rate_max_rad_per_s = 1.0;
+  double deceleration_m_per_s2 = 1.0;  ///< how hard it brakes before corners and the end
+  double lookahead_m = 0.6;            ///< it aims at a place on the path this far ahead
+  double lookahead_min_m = 0.15;       ///< or nearer, down to this,
+  double deviation_max_m = 0.04;       ///< when the path leaves the straight line to that place by more
+  double turn_in_place_rad = 0.8;      ///< it turns in place when the place lies further aside; < pi / 2
+  double goal_tolerance_m = 0.1;       ///< this near to its end the path is finished
+
+  /// Throws std::invalid_argument for values outside of their bounds.
+  void validate() const {
+    require_positive("FollowParams", "speed_max_m_per_s", speed_max_m_per_s);
+    require_positive("FollowParams", "turn_rate_max_rad_per_s", turn_rate_max_rad_per_s);
+    require_positive("FollowParams", "deceleration_m_per_s2", deceleration_m_per_s2);
+    require_positive("FollowParams", "lookahead_min_m", lookahead_min_m);
+    require(std::isfinite(lookahead_m) && lookahead_m >= lookahead_min_m, "FollowParams", "lookahead_m",
+            lookahead_m, "finite and >= lookahead_min_m");
+    require_positive("FollowParams", "deviation_max_m", deviation_max_m);
+    require(turn_in_place_rad > 0.0 && turn_in_place_rad < std::numbers::pi / 2.0, "FollowParams",
+            "turn_in_place_rad", turn_in_place_rad, "in (0, pi / 2)");
+    require_positive("FollowParams", "goal_tolerance_m", goal_tolerance_m);
+  }
+};
+
+/// Pure pursuit (Coulter 1992) of one path. It brakes before corners, turns in place where the path lies far
+/// aside, and never goes back along the path, so a path that crosses itself is followed through. A plain
+/// value.
+class PathFollower {
+ public:
+  /// Nothing to follow: finished.
+  PathFollower() = default;
+
+  /// Follows `path_m`, in the frame of the poses that command() is given; better with few corners (see
+  /// shorten_path). Throws std::invalid_argument for parameters outside of their bounds.
+  explicit PathFollower(std::vector<Eigen::Vector2d> path_m, const FollowParams& params = {})
+      : path_(std::move(path_m)), params_(params), finished_(path_.empty()) {
+    params_.validate();
+  }
+
+  /// The speeds to drive with from where the robot is; zero when the path is finished. Speed is never
+  /// negative.
+  [[nodiscard]] Twist2 command(const Pose2& T_map_robot) {
+    if (finished_) return {};
+    const Eigen::Vector2d position = T_map_robot.position();
+    progress_m_ = path_.nearest_along_m(position, progress_m_, progress_m_ + params_.lookahead_m);
+    const double end_distance_m = (path_.points_m().back() - position).norm();
+    if (path_.length_m() - progress_m_ <= params_.goal_tolerance_m &&
+        end_distance_m <= params_.goal_tolerance_m) {
+      finished_ = true;
+      return {};
+    }
+
+    const Eigen::Vector2d to_target = path_.point_at(progress_m_ + lookahead_m()) - position;
+    const double aside_rad = angle_between_rad(T_map_robot.yaw_rad, std::atan2(to_target.y(), to_target.x()));
+    if (std::abs(aside_rad) > params_.turn_in_place_rad) {
+      const double rate_rad_per_s = params_.turn_rate_max_rad_per_s;
+      return {0.0, std::clamp(2.0 * aside_rad, -rate_rad_per_s, rate_rad_per_s)};
+    }
+    // The arc through the target.
+    const double curvature_per_m = 2.0 * std::sin(aside_rad) / std::max(to_target.norm(), 1e-6);
+    const double speed_m_per_s = std::min(
+        braking_speed_m_per_s(), params_.turn_rate_max_rad_per_s / std::max(std::abs(curvature_per_m), 1e-6));
+    return {speed_m_per_s, speed_m_per_s * curvature_per_m};
+  }
+
+  [[nodiscard]] bool is_finished() const { return finished_; }
+
+  /// How far along the path the robot has come; never decreases.
+  [[nodiscard]] double progress_m() const { return progress_m_; }
+
+  [[nodiscard]] const Polyline& path() const { return path_; }
+
+ private:
+  /// The look-ahead, shortened while the path leaves its chord too far: so a corner is not cut.
+  [[nodiscard]] double lookahead_m() const {
+    const Eigen::Vector2d from = path_.point_at(progress_m_);
+    double ahead_m = params_.lookahead_m;
+    while (ahead_m > params_.lookahead_min_m) {
+      const Eigen::Vector2d chord = path_.point_at(progress_m_ + ahead_m) - from;
+      double deviation_m = 0.0;
+      for (std::size_t i = path_.corner_after(progress_m_); path_.arc_m(i) < progress_m_ + ahead_m; ++i) {
+        const Eigen::Vector2d corner = path_.points_m()[i] - from;
+        const double share = std::clamp(corner.dot(chord) / std::max(chord.squaredNorm(), 1e-12), 0.0, 1.0);
+        deviation_m = std::max(deviation_m, (corner - share * chord).norm());
+        if (i + 1 == path_.points_m().size()) break;
+      }
+      if (deviation_m <= params_.deviation_max_m) break;
+      ahead_m *= 0.8;
+    }
+    return std::max(ahead_m, params_.lookahead_min_m);
+  }
+
+  /// The speed from which the robot can brake before each corner to what the corner allows, and at the end to
+  /// a crawl.
+  [[nodiscard]] double braking_speed_m_per_s() const {
+    const double crawl_m_per_s = 0.1 * params_.speed_max_m_per_s;
+    double speed_m_per_s = params_.speed_max_m_per_s;
+    const auto& points_m = path_.points_m();
+    for (std::size_t i = path_.corner_after(progress_m_); i < points_m.size(); ++i) {
+      const double before_m = path_.arc_m(i) - progress_m_;
+      if (2.0 * params_.deceleration_m_per_s2 * before_m > speed_m_per_s * speed_m_per_s) break;
+      double corner_m_per_s = crawl_m_per_s;
+      if (i > 0 && i + 1 < points_m.size()) {
+        const Eigen::Vector2d in = points_m[i] - points_m[i - 1];
+        const Eigen::Vector2d out = points_m[i + 1] - points_m[i];
+        const double turn_rad = std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+        const double allowed = 1.0 - turn_rad / params_.turn_in_place_rad;
+        corner_m_per_s = std::max(crawl_m_per_s, allowed * params_.speed_max_m_per_s);
+      }
+      speed_m_per_s =
+          std::min(speed_m_per_s, std::sqrt(corner_m_per_s * corner_m_per_s +
+                                            2.0 * params_.deceleration_m_per_s2 * std::max(0.0, before_m)));
+    }
+    return speed_m_per_s;
+  }
+
+  Polyline path_;
+  FollowParams params_;
+  double progress_m_ = 0.0;
+  bool finished_ = true;
+};
+
+}  // namespace incognita

@@ -1,0 +1,105 @@
+/// From a travel cost field to a path that a robot can follow, and whether a path is still clear.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "incognita/core/error.hpp"
+#include "incognita/grid/traversal.hpp"
+#include "incognita/planning/polyline.hpp"
+#include "incognita/planning/travel_cost.hpp"
+
+namespace incognita {
+
+/// The cheapest path from the field's start to the centre of `goal`, from cell centre to cell centre after
+/// the start itself. Empty when the goal cannot be reached.
+[[nodiscard]] inline std::vector<Eigen::Vector2d> find_path(const TravelCostField& field,
+                                                            const Index<2>& goal) {
+  std::vector<Eigen::Vector2d> path_m;
+  for (const Index<2>& cell : field.cells_to(goal)) path_m.push_back(field.lattice().center_m(cell));
+  if (!path_m.empty()) path_m.front() = field.start_m();
+  return path_m;
+}
+
+/// The cost in metres of driving straight from one place to another; infinity when a cell on the way lacks
+/// the clearance that the robot needs. Sampled every half cell.
+[[nodiscard]] inline double straight_cost_m(const TravelCostField& field, const Eigen::Vector2d& from_m,
+                                            const Eigen::Vector2d& to_m) {
+  bool proper = true;
+  traverse<2>(field.lattice(), from_m, to_m, [&](const Index<2>& index) {
+    proper = field.is_proper(index);
+    return proper;
+  });
+  if (!proper) return std::numeric_limits<double>::infinity();
+  const double length_m = (to_m - from_m).norm();
+  const double samples = std::max(1.0, std::ceil(2.0 * length_m / field.lattice().resolution_m()));
+  double sum = 0.0;
+  for (double sample = 0.5; sample < samples; sample += 1.0) {
+    const Eigen::Vector2d at_m = from_m + (to_m - from_m) * (sample / samples);
+    sum += static_cast<double>(field.cost_per_m(field.lattice().index_of(at_m)));
+  }
+  return length_m * sum / samples;
+}
+
+/// The path with fewer corners: straight wherever that keeps the robot's clearance and costs at most 1 +
+/// `slack` times what the path itself does. Its ends stay, and so do steps where the robot lacks clearance
+/// (see TravelCostField). Throws std::invalid_argument unless slack is finite and >= 0. O(corners x the
+/// longest straight part).
+[[nodiscard]] inline std::vector<Eigen::Vector2d> shorten_path(const TravelCostField& field,
+                                                               const std::vector<Eigen::Vector2d>& path_m,
+                                                               double slack = 0.02) {
+  require_non_negative("shorten_path", "slack", slack);
+  if (path_m.size() < 3) return path_m;
+  std::vector<Eigen::Vector2d> shorter_m{path_m.front()};
+  std::size_t anchor = 0;
+  while (anchor + 1 < path_m.size()) {
+    std::size_t end = anchor + 1;
+    double along_cost_m = straight_cost_m(field, path_m[anchor], path_m[end]);
+    for (std::size_t next = end + 1; next < path_m.size() && std::isfinite(along_cost_m); ++next) {
+      along_cost_m += straight_cost_m(field, path_m[next - 1], path_m[next]);
+      const double straight_m = straight_cost_m(field, path_m[anchor], path_m[next]);
+      if (!(straight_m <= (1.0 + slack) * along_cost_m)) break;
+      end = next;
+    }
+    shorter_m.push_back(path_m[end]);
+    anchor = end;
+  }
+  return shorter_m;
+}
+
+/// Whether no cell for which is_occupied(index) holds has its centre within `radius_m` of the path, from
+/// `from_m` along it to its end. O(path length x radius / cell area).
+template <class IsOccupied>
+[[nodiscard]] bool path_is_clear(const Polyline& path, const Lattice<2>& lattice, double radius_m,
+                                 IsOccupied&& is_occupied, double from_m = 0.0) {
+  if (path.empty()) return true;
+  constexpr double piece_m = 1.0;  // in pieces, since the box around a long diagonal is mostly far from it
+  const double reach_m = radius_m + lattice.resolution_m();
+  double along_m = std::clamp(from_m, 0.0, path.length_m());
+  Eigen::Vector2d begin_m = path.point_at(along_m);
+  do {
+    const std::size_t corner = path.corner_after(along_m);
+    along_m = std::min(along_m + piece_m, std::max(along_m, path.arc_m(corner)));
+    const Eigen::Vector2d end_m = path.point_at(along_m);
+    const Eigen::Vector2d piece = end_m - begin_m;
+    const double length2 = piece.squaredNorm();
+    const Index<2> lower = lattice.index_of((begin_m.cwiseMin(end_m).array() - reach_m).matrix());
+    const Index<2> upper = lattice.index_of((begin_m.cwiseMax(end_m).array() + reach_m).matrix());
+    for (int y = lower.y(); y <= upper.y(); ++y) {
+      for (int x = lower.x(); x <= upper.x(); ++x) {
+        const Eigen::Vector2d offset = lattice.center_m({x, y}) - begin_m;
+        const double share = length2 > 0.0 ? std::clamp(offset.dot(piece) / length2, 0.0, 1.0) : 0.0;
+        if ((offset - share * piece).squaredNorm() < radius_m * radius_m && is_occupied(Index<2>(x, y)))
+          return false;
+      }
+    }
+    begin_m = end_m;
+  } while (along_m < path.length_m());
+  return true;
+}
+
+}  // namespace incognita

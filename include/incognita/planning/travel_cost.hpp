@@ -1,0 +1,224 @@
+/// What it costs a disc-shaped robot to travel from where it is to every cell of a belief.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "incognita/core/error.hpp"
+#include "incognita/map/occupancy.hpp"
+
+namespace incognita {
+
+/// Where a disc-shaped robot can travel and what it likes. Costs are in metres: a metre far from all walls
+/// costs 1.
+struct TravelParams {
+  double robot_radius_m = 0.2;
+  /// The robot's centre stays robot_radius_m + margin_m away from the centres of occupied cells. It is small
+  /// on purpose: a larger one closes doors that the robot fits through, and the soft cost keeps it in the
+  /// middle of them.
+  double margin_m = 0.02;
+  double clearance_soft_m =
+      0.6;  ///< under this clearance c a metre costs 1 + clearance_weight (1 - c / this)^2
+  double clearance_weight = 4.0;    ///< >= 0
+  double escape_radius_m = 0.6;     ///< how far a robot may drive where it cannot be, to get to where it can
+  double escape_cost_per_m = 20.0;  ///< of driving there, > 1 + clearance_weight
+
+  [[nodiscard]] double clearance_hard_m() const { return robot_radius_m + margin_m; }
+
+  /// Throws std::invalid_argument for values outside of their bounds.
+  void validate() const {
+    require_non_negative("TravelParams", "robot_radius_m", robot_radius_m);
+    require_non_negative("TravelParams", "margin_m", margin_m);
+    require_positive("TravelParams", "clearance_soft_m", clearance_soft_m);
+    require_non_negative("TravelParams", "clearance_weight", clearance_weight);
+    require_non_negative("TravelParams", "escape_radius_m", escape_radius_m);
+    require(std::isfinite(escape_cost_per_m) && escape_cost_per_m > 1.0 + clearance_weight, "TravelParams",
+            "escape_cost_per_m", escape_cost_per_m, "finite and > 1 + clearance_weight");
+  }
+};
+
+/// The cheapest ways from one place to all others: 8-connected, never cutting a corner, through free cells
+/// with the clearance that the robot needs. When the start itself lacks it (the belief put a wall too near),
+/// cells around it that are not occupied may be crossed, at a high cost, until the first proper one is
+/// reached. One field serves all goals. Safe to read from many threads at once.
+class TravelCostField {
+ public:
+  /// `clearance_m` holds the distance from each cell's centre to the centre of the nearest occupied one, as
+  /// distance_transform_m returns it. Nothing can be reached from a start outside of the grid's box. Throws
+  /// std::invalid_argument for bad parameters, a start that is not finite, and grids with different boxes.
+  /// O(cells) to set up and O(reached cells) to search: a bucket queue (Dial 1969), exact because no step is
+  /// cheaper than a bucket is wide.
+  TravelCostField(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m,
+                  const Eigen::Vector2d& start_m, const TravelParams& params = {})
+      : start_m_(start_m),
+        proper_max_(static_cast<float>(1.0 + params.clearance_weight)),
+        cost_per_m_(occupancy.lattice(), ringed(occupancy.box()), infinite),
+        cost_m_(occupancy.lattice(), cost_per_m_.box(), infinite),
+        step_to_(occupancy.lattice(), cost_per_m_.box(), no_step) {
+    params.validate();
+    if (!start_m.allFinite()) throw std::invalid_argument("TravelCostField: start_m is not finite");
+    if (occupancy.box().lower != clearance_m.box().lower ||
+        occupancy.box().upper != clearance_m.box().upper) {
+      throw std::invalid_argument("TravelCostField: occupancy and clearance_m differ in their boxes");
+    }
+    const Eigen::Vector2d start_cells = occupancy.lattice().to_cells(start_m);
+    if (!Box<Eigen::Vector2d>{occupancy.box().lower.cast<double>(), occupancy.box().upper.cast<double>()}
+             .contains(start_cells)) {
+      return;
+    }
+    start_ = occupancy.lattice().index_of(start_m);
+    rate_cells(occupancy, clearance_m, params);
+    if (!is_proper(start_)) open_escape(occupancy, params);
+    search(params);
+    for (const Index<2>& index : escape_) cost_m_.set(index, infinite);
+  }
+
+  /// What the way to a cell costs, in metres; infinity when there is none or the robot cannot stay there.
+  [[nodiscard]] float cost_m(const Index<2>& index) const { return cost_m_.value(index); }
+
+  [[nodiscard]] bool reaches(const Index<2>& index) const { return cost_m(index) < infinite; }
+
+  /// Whether the robot has the clearance it needs in a cell.
+  [[nodiscard]] bool is_proper(const Index<2>& index) const {
+    return cost_per_m_.value(index) <= proper_max_;
+  }
+
+  /// The cost of a metre in a cell, 1 or more; infinity where the robot cannot travel.
+  [[nodiscard]] float cost_per_m(const Index<2>& index) const { return cost_per_m_.value(index); }
+
+  /// The cells of the cheapest way, from the start's to `goal`; empty when there is none.
+  [[nodiscard]] std::vector<Index<2>> cells_to(const Index<2>& goal) const {
+    std::vector<Index<2>> cells;
+    if (!reaches(goal)) return cells;
+    cells.push_back(goal);
+    while (cells.back() != start_) {
+      const auto step = static_cast<std::size_t>(step_to_.value(cells.back()) & step_mask);
+      cells.push_back(cells.back() - Index<2>(step_x[step], step_y[step]));
+    }
+    std::reverse(cells.begin(), cells.end());
+    return cells;
+  }
+
+  [[nodiscard]] const Eigen::Vector2d& start_m() const { return start_m_; }
+  [[nodiscard]] const Lattice<2>& lattice() const { return cost_m_.lattice(); }
+
+ private:
+  static constexpr float infinite = std::numeric_limits<float>::infinity();
+  static constexpr std::uint8_t no_step = 0;
+  static constexpr std::uint8_t step_mask = 7;
+  static constexpr std::uint8_t settled = 8;
+
+  /// Counter-clockwise from +x, so odd steps are diagonal.
+  static constexpr std::array<int, 8> step_x{1, 1, 0, -1, -1, -1, 0, 1};
+  static constexpr std::array<int, 8> step_y{0, 1, 1, 1, 0, -1, -1, -1};
+
+  /// One ring larger: the ring is never entered, so no step needs to look whether it leaves the grid.
+  [[nodiscard]] static IndexBox<2> ringed(const IndexBox<2>& box) {
+    return {(box.lower.array() - 1).matrix(), (box.upper.array() + 1).matrix()};
+  }
+
+  void rate_cells(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m,
+                  const TravelParams& params) {
+    const auto hard_m = static_cast<float>(params.clearance_hard_m());
+    const auto weight = static_cast<float>(params.clearance_weight);
+    const auto per_soft_m = static_cast<float>(1.0 / params.clearance_soft_m);
+    const Offset width = occupancy.stride(1);
+    for (Offset row = 0; row < static_cast<Offset>(occupancy.size()); row += width) {
+      float* const rated = &cost_per_m_[cost_per_m_.offset_of(occupancy.index_at(row))];
+      for (Offset i = 0; i < width; ++i) {
+        const float lack = std::max(0.0F, 1.0F - clearance_m[row + i] * per_soft_m);
+        const bool proper = occupancy[row + i] == Occupancy::free && clearance_m[row + i] >= hard_m;
+        rated[i] = proper ? 1.0F + weight * lack * lack : infinite;
+      }
+    }
+  }
+
+  void open_escape(const OccupancyGrid<2>& occupancy, const TravelParams& params) {
+    const auto escape = static_cast<float>(params.escape_cost_per_m);
+    const int reach = static_cast<int>(
+        std::min(params.escape_radius_m / occupancy.resolution_m(), static_cast<double>(occupancy.size())));
+    const IndexBox<2>& box = occupancy.box();
+    const Index<2> lower = (start_.array() - reach).matrix().cwiseMax(box.lower);
+    const Index<2> upper = (start_.array() + reach + 1).matrix().cwiseMin(box.upper);
+    for (int y = lower.y(); y < upper.y(); ++y) {
+      for (int x = lower.x(); x < upper.x(); ++x) {
+        const Index<2> index(x, y);
+        const bool near =
+            (index - start_).cast<double>().norm() * occupancy.resolution_m() <= params.escape_radius_m;
+        if (near && occupancy.value(index) != Occupancy::occupied && !is_proper(index))
+          cost_per_m_.set(index, escape);
+      }
+    }
+    cost_per_m_.set(start_, escape);
+  }
+
+  void search(const TravelParams& params) {
+    const float half_m = static_cast<float>(0.5 * cost_m_.resolution_m());
+    const float half_diagonal_m = static_cast<float>(0.5 * std::numbers::sqrt2 * cost_m_.resolution_m());
+    // A little under the cheapest step, so that rounding never puts a step's end into the bucket of its
+    // beginning.
+    const float width_m = static_cast<float>(0.99 * cost_m_.resolution_m());
+    const double step_max_m = std::numbers::sqrt2 * cost_m_.resolution_m() * params.escape_cost_per_m;
+    std::vector<std::vector<Offset>> buckets(
+        static_cast<std::size_t>(step_max_m / static_cast<double>(width_m)) + 3);
+
+    std::array<Offset, 8> offset_steps{};
+    for (std::size_t s = 0; s < 8; ++s) offset_steps[s] = step_x[s] + step_y[s] * cost_m_.stride(1);
+
+    std::size_t waiting = 1;
+    cost_m_.set(start_, 0.0F);
+    buckets[0].push_back(cost_m_.offset_of(start_));
+    for (std::size_t b = 0; waiting > 0; b = (b + 1) % buckets.size()) {
+      std::vector<Offset>& bucket = buckets[b];
+      for (const Offset from : bucket) {
+        --waiting;
+        if ((step_to_[from] & settled) != 0) continue;
+        step_to_[from] |= settled;
+        const float from_cost_m = cost_m_[from];
+        const float from_per_m = cost_per_m_[from];
+        // Out of a place to escape from into any open cell, out of a proper one into proper ones only.
+        const float enter_max = from_per_m > proper_max_ ? from_per_m : proper_max_;
+        const auto relax = [&](std::size_t step, Offset to, float half_step_m) {
+          const float to_cost_m = from_cost_m + half_step_m * (from_per_m + cost_per_m_[to]);
+          if (to_cost_m < cost_m_[to]) {
+            cost_m_[to] = to_cost_m;
+            step_to_[to] = static_cast<std::uint8_t>(step);
+            buckets[static_cast<std::size_t>(to_cost_m / width_m) % buckets.size()].push_back(to);
+            ++waiting;
+          }
+        };
+        std::array<bool, 4> open{};
+        for (std::size_t face = 0; face < 4; ++face) {
+          const Offset to = from + offset_steps[2 * face];
+          open[face] = cost_per_m_[to] <= enter_max;
+          if (open[face]) relax(2 * face, to, half_m);
+        }
+        for (std::size_t face = 0; face < 4; ++face) {
+          const Offset to = from + offset_steps[2 * face + 1];
+          if (open[face] && open[(face + 1) % 4] && cost_per_m_[to] <= enter_max) {
+            relax(2 * face + 1, to, half_diagonal_m);
+          }
+        }
+      }
+      bucket.clear();
+    }
+  }
+
+  Eigen::Vector2d start_m_;
+  Index<2> start_ = Index<2>::Zero();
+  float proper_max_;  ///< no proper cell costs more a metre, every place to escape from does
+  Grid<float, 2> cost_per_m_;
+  Grid<float, 2> cost_m_;
+  std::vector<Index<2>> escape_;   ///< what may be crossed once, to get away from the start
+  Grid<std::uint8_t, 2> step_to_;  ///< the last step of the way to a cell, and whether it is final
+};
+
+}  // namespace incognita
