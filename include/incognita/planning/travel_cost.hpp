@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "incognita/core/error.hpp"
+#include "incognita/geometry/box.hpp"
 #include "incognita/map/occupancy.hpp"
 
 namespace incognita {
@@ -151,13 +152,12 @@ class TravelCostField {
     for (int y = lower.y(); y < upper.y(); ++y) {
       for (int x = lower.x(); x < upper.x(); ++x) {
         const Index<2> index(x, y);
-        const bool near =
-            (index - start_).cast<double>().norm() * occupancy.resolution_m() <= params.escape_radius_m;
-        if (near && occupancy.value(index) != Occupancy::occupied && !is_proper(index))
-          cost_per_m_.set(index, escape);
+        const double distance_m = (index - start_).cast<double>().norm() * occupancy.resolution_m();
+        if (distance_m > params.escape_radius_m || is_proper(index)) continue;
+        if (index == start_ || occupancy.value(index) != Occupancy::occupied) escape_.push_back(index);
       }
     }
-    cost_per_m_.set(start_, escape);
+    for (const Index<2>& index : escape_) cost_per_m_.set(index, escape);
   }
 
   void search(const TravelParams& params) {
