@@ -1,8 +1,8 @@
 /// The information form of a Gaussian update over (x, y, yaw).
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 namespace incognita {
 
@@ -18,12 +18,17 @@ struct Information {
   }
 };
 
-/// (11a) of Seo et al. without inverting the prior, which may be singular: (P^-1 + J)^-1 = (I + P J)^-1 P. Symmetric to
-/// the last bit.
-[[nodiscard]] inline Eigen::Matrix3d updated_covariance(const Eigen::Matrix3d& prior, const Eigen::Matrix3d& information) {
-  const Eigen::Matrix3d gain = (Eigen::Matrix3d::Identity() + prior * information).inverse();
-  const Eigen::Matrix3d posterior = gain * prior;
-  return 0.5 * (posterior + posterior.transpose());
+/// (11a) of Seo et al., (P^-1 + J)^-1, without inverting the prior P, which may be singular: with P = F F^T it is
+/// F (I + F^T J F)^-1 F^T, symmetric to the last bit and positive semi-definite by construction.
+[[nodiscard]] inline Eigen::Matrix3d updated_covariance(const Eigen::Matrix3d& prior,
+                                                        const Eigen::Matrix3d& information) {
+  const Eigen::LDLT<Eigen::Matrix3d> ldlt(prior);
+  const Eigen::Matrix3d lower = ldlt.matrixL();
+  const Eigen::Vector3d roots = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::Matrix3d factor = ldlt.transpositionsP().transpose() * (lower * roots.asDiagonal());
+  const Eigen::LLT<Eigen::Matrix3d> inner(Eigen::Matrix3d::Identity() + factor.transpose() * information * factor);
+  const Eigen::Matrix3d half = inner.matrixL().solve(factor.transpose());
+  return half.transpose() * half;
 }
 
 }  // namespace incognita
