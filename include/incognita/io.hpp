@@ -1,0 +1,39 @@
+/// The door of io/: reading and writing files. It has libraries of its own (target incognita::io) and is not
+/// part of incognita.hpp: the core needs Eigen alone.
+///
+/// - io/floor_plan.hpp: read_floor_plan, a building from a map_server or a KTH file, by the file's name
+/// - io/map_server.hpp, map_metadata.hpp: read_map_server and write_map_server, maps of ROS (yaml-cpp)
+/// - io/kth_xml.hpp, kth_floor.hpp, kth_doors.hpp: read_kth_xml, floors of the KTH campus (pugixml)
+/// - io/tum.hpp: read_tum and write_tum, trajectories
+/// - io/png.hpp, pgm.hpp, image.hpp: read_png and write_png (libpng), read_pgm and write_pgm
+/// - io/image_file.hpp: read_image, a PNG or a PGM, by its first bytes
+/// - io/read_file.hpp, atomic_file.hpp, number.hpp: what the formats are made of
+/// - io/output_folder.hpp: whether a folder can be written, known before the work starts
+/// - io/input_error.hpp: the one exception
+///
+/// Whatever is wrong with a file, missing, malformed, truncated, too large or hostile, throws InputError with
+/// one line that names the file, the cause, the value and the bound. Sizes are bounded before memory is asked
+/// for.
+///
+/// A written file appears, or takes the place of an older one, only when it is complete.
+///
+/// Nothing depends on the locale. All functions may be called from several threads, on different files.
+/// Frames are the file's own: metres, x right, y up; row 0 of an image is the largest y.
+#pragma once
+
+#include "incognita/io/atomic_file.hpp"
+#include "incognita/io/floor_plan.hpp"
+#include "incognita/io/image.hpp"
+#include "incognita/io/image_file.hpp"
+#include "incognita/io/input_error.hpp"
+#include "incognita/io/kth_doors.hpp"
+#include "incognita/io/kth_floor.hpp"
+#include "incognita/io/kth_xml.hpp"
+#include "incognita/io/map_metadata.hpp"
+#include "incognita/io/map_server.hpp"
+#include "incognita/io/number.hpp"
+#include "incognita/io/output_folder.hpp"
+#include "incognita/io/pgm.hpp"
+#include "incognita/io/png.hpp"
+#include "incognita/io/read_file.hpp"
+#include "incognita/io/tum.hpp"
