@@ -3,40 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "incognita/grid/distance_transform.hpp"
 #include "incognita/grid/grid.hpp"
 
 namespace incognita {
 
-/// The blocked cells of a grid, as squares, with a table of clearances that makes queries fast and leaves them exact.
-/// Outside of the grid's box everything is blocked. A byte a cell. Immutable: safe from many threads.
+/// The blocked cells of a grid, as squares, with a table of clearances that makes queries fast and leaves
+/// them exact. Outside of the grid's box everything is blocked. A byte a cell. Immutable: safe from many
+/// threads.
 class ObstacleField {
  public:
   /// A cell is blocked when blocks(value) holds. O(cells).
   template <class Value, class Blocks>
   ObstacleField(const Grid<Value, 2>& grid, Blocks&& blocks)
       : box_(grid.box()), gaps_(grid.lattice(), padded(grid.box()), std::uint8_t{0}) {
-    // The gap between two squares is the distance between a centre and the other square's centre when that
-    // square and its eight neighbours are sources, so transform the blocked cells dilated by one.
-    Grid<std::uint8_t, 2> dilated(grid.lattice(), gaps_.box(), std::uint8_t{0});
     Grid<std::uint8_t, 2> blocked(grid.lattice(), gaps_.box(), std::uint8_t{1});
-    for (int y = box_.lower.y(); y < box_.upper.y(); ++y) {
-      for (int x = box_.lower.x(); x < box_.upper.x(); ++x) {
-        blocked.set({x, y}, blocks(grid.value({x, y})) ? std::uint8_t{1} : std::uint8_t{0});
-      }
+    for (Offset cell = 0; cell < static_cast<Offset>(grid.size()); ++cell) {
+      if (!blocks(grid[cell])) blocked.set(grid.index_at(cell), std::uint8_t{0});
     }
-    dilate(blocked, dilated);
-    const Grid<float, 2> gap_m = distance_transform_m(dilated, [](std::uint8_t value) { return value != 0; });
-    const double per_unit = gap_unit_count / grid.resolution_m();
+    const Grid<float, 2> distance_m =
+        distance_transform_m(blocked, [](std::uint8_t value) { return value != 0; });
     for (Offset cell = 0; cell < static_cast<Offset>(gaps_.size()); ++cell) {
       if (blocked[cell] != 0) continue;
-      // Rounded down, but not below a whole number that a float has just missed.
-      const double gap = std::floor(static_cast<double>(gap_m[cell]) * per_unit + 1e-3);
-      gaps_[cell] = static_cast<std::uint8_t>(1.0 + std::min(gap, 254.0));
+      // Between centres; each square reaches at most half a diagonal towards the other, and the slack beyond
+      // sqrt(2) covers a float's rounding.
+      const double gap = static_cast<double>(distance_m[cell]) / grid.resolution_m() - 1.4143;
+      gaps_[cell] = static_cast<std::uint8_t>(1.0 + std::clamp(gap * gap_unit_count, 0.0, 254.0));
     }
   }
 
@@ -47,10 +43,11 @@ class ObstacleField {
 
   [[nodiscard]] bool is_blocked(const Index<2>& cell) const { return gaps_.value(cell) == 0; }
 
-  /// The range from a point to the first blocked cell's face: 0 in a blocked cell, range_max_m when nothing is met
-  /// within it. `direction` has length 1. The same as cast_ray_m of a grid, but open space is crossed in strides no
-  /// longer than the clearance around.
-  [[nodiscard]] double cast_ray_m(const Point<2>& origin_m, const Point<2>& direction, double range_max_m) const {
+  /// The range from a point to the first blocked cell's face: 0 in a blocked cell, range_max_m when nothing
+  /// is met within it. `direction` has length 1. The same as cast_ray_m of a grid, but open space is crossed
+  /// in strides no longer than the clearance around.
+  [[nodiscard]] double cast_ray_m(const Point<2>& origin_m, const Point<2>& direction,
+                                  double range_max_m) const {
     const Point<2> from = to_table(origin_m);
     if (!in_table(from)) return 0.0;
     const double resolution_m = gaps_.resolution_m();
@@ -67,8 +64,8 @@ class ObstacleField {
     for (;;) {
       const std::uint8_t gap = gaps[y * stride + x];
       if (gap >= gap_worth_a_stride) {
-        // A little short of the nearest square: the step onto its face is left to the exact walk.
-        range += (gap - 1) * (1.0 / gap_unit_count) - 1e-6;
+        // This ends short of the nearest square: the step onto its face is left to the exact walk.
+        range += (gap - 1) * (1.0 / gap_unit_count);
         if (range >= range_max) return range_max_m;
         x = static_cast<int>(from.x() + range * dx);
         y = static_cast<int>(from.y() + range * dy);
@@ -88,22 +85,23 @@ class ObstacleField {
     }
   }
 
-  /// The distance from a point to the nearest blocked square: 0 in or on one. O(clearance in cells, squared) near the
-  /// corners of what is blocked, usually less.
+  /// The distance from a point to the nearest blocked square: 0 in or on one. O(clearance in cells, squared)
+  /// near the corners of what is blocked, usually less.
   [[nodiscard]] double clearance_m(const Point<2>& point_m) const {
     const Point<2> at = to_table(point_m);
     if (!in_table(at)) return 0.0;
     const int x = static_cast<int>(at.x());
     const int y = static_cast<int>(at.y());
-    const int width = static_cast<int>(gaps_.stride(1));
+    const Offset stride = gaps_.stride(1);
+    const int width = gaps_.box().extent().x();
     const int height = gaps_.box().extent().y();
     const std::uint8_t* const gaps = gaps_.values().data();
-    const std::uint8_t gap = gaps[y * width + x];
+    const std::uint8_t gap = gaps[y * stride + x];
     if (gap == 0) return 0.0;
 
     double nearest_squared = never;
     const auto meet = [&](int cell_x, int cell_y) {
-      if (gaps[cell_y * width + cell_x] != 0) return;
+      if (gaps[cell_y * stride + cell_x] != 0) return;
       const double across = std::max({cell_x - at.x(), at.x() - (cell_x + 1.0), 0.0});
       const double up = std::max({cell_y - at.y(), at.y() - (cell_y + 1.0), 0.0});
       nearest_squared = std::min(nearest_squared, across * across + up * up);
@@ -140,30 +138,12 @@ class ObstacleField {
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
-  /// The table counts clearance in this part of a cell.
-  static constexpr double gap_unit_count = 2.0;
+  static constexpr double gap_unit_count = 2.0;  ///< units of the table in a cell
   static constexpr std::uint8_t gap_worth_a_stride = 4;
 
   /// With a ring of blocked cells around, no walk leaves the table.
   [[nodiscard]] static IndexBox<2> padded(const IndexBox<2>& box) {
     return {(box.lower.array() - 1).matrix(), (box.upper.array() + 1).matrix()};
-  }
-
-  static void dilate(const Grid<std::uint8_t, 2>& blocked, Grid<std::uint8_t, 2>& dilated) {
-    const IndexBox<2>& box = blocked.box();
-    Grid<std::uint8_t, 2> rows = dilated;
-    for (int y = box.lower.y(); y < box.upper.y(); ++y) {
-      for (int x = box.lower.x(); x < box.upper.x(); ++x) {
-        const int any = blocked.value({x - 1, y}) | blocked.value({x, y}) | blocked.value({x + 1, y});
-        rows.set({x, y}, static_cast<std::uint8_t>(any));
-      }
-    }
-    for (int y = box.lower.y(); y < box.upper.y(); ++y) {
-      for (int x = box.lower.x(); x < box.upper.x(); ++x) {
-        const int any = rows.value({x, y - 1}) | rows.value({x, y}) | rows.value({x, y + 1});
-        dilated.set({x, y}, static_cast<std::uint8_t>(any));
-      }
-    }
   }
 
   /// Coordinates in cells from the table's lower corner.
@@ -178,9 +158,48 @@ class ObstacleField {
   }
 
   IndexBox<2> box_;
-  /// 0 in a blocked cell; otherwise 1 + the gap between this cell's square and the nearest blocked one in
-  /// units of the cell, rounded down, at most 255.
+  /// 0 in a blocked cell; otherwise 1 + a lower bound of the gap between this cell's square and any blocked
+  /// one, in parts of a cell.
   Grid<std::uint8_t, 2> gaps_;
 };
+
+/// The cells on whose centre a disc is clear: 1 there, 0 elsewhere. O(cells), more near what is blocked.
+[[nodiscard]] inline Grid<std::uint8_t, 2> disc_positions(const ObstacleField& obstacles, double radius_m) {
+  Grid<std::uint8_t, 2> positions(obstacles.lattice(), obstacles.box(), std::uint8_t{0});
+  for (Offset cell = 0; cell < static_cast<Offset>(positions.size()); ++cell) {
+    const Point<2> center_m = obstacles.lattice().center_m(positions.index_at(cell));
+    if (obstacles.disc_is_clear(center_m, radius_m)) positions[cell] = 1;
+  }
+  return positions;
+}
+
+/// How far along a curve a disc can go before it would overlap something, at most length_m; position_at(s) is
+/// the centre after s metres along the curve. 0 when it is not clear to begin with, and the result is always
+/// a clear position. Clearance is looked at no farther apart than 1 mm where it is short, so a corner that
+/// the disc grazes in passing can reach (1 mm)^2 / (8 radius) into it, 0.6 um at 0.2 m; a contact is found to
+/// 1 um.
+template <class PositionAt>
+[[nodiscard]] double clear_length_m(const ObstacleField& obstacles, double radius_m, double length_m,
+                                    PositionAt&& position_at) {
+  constexpr double stride_m = 1e-3;
+  constexpr double accuracy_m = 1e-6;
+  double clear_m = 0.0;
+  double spare_m = obstacles.clearance_m(position_at(0.0)) - radius_m;
+  if (spare_m < 0.0) return 0.0;
+  while (clear_m < length_m) {
+    const double next_m = std::min(clear_m + std::max(spare_m, stride_m), length_m);
+    spare_m = obstacles.clearance_m(position_at(next_m)) - radius_m;
+    if (spare_m < 0.0) {
+      double overlapping_m = next_m;
+      while (overlapping_m - clear_m > accuracy_m) {
+        const double middle_m = 0.5 * (clear_m + overlapping_m);
+        (obstacles.disc_is_clear(position_at(middle_m), radius_m) ? clear_m : overlapping_m) = middle_m;
+      }
+      return clear_m;
+    }
+    clear_m = next_m;
+  }
+  return length_m;
+}
 
 }  // namespace incognita

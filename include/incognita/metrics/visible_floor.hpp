@@ -1,0 +1,158 @@
+/// The floor that a robot can get to see from where it starts.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "incognita/core/error.hpp"
+#include "incognita/grid/components.hpp"
+#include "incognita/grid/grid.hpp"
+#include "incognita/sensor/field_of_view.hpp"
+#include "incognita/sensor/obstacle_field.hpp"
+
+namespace incognita {
+
+/// The cells on whose centre a disc can stand after driving there from `start_m`: those on whose centre it is
+/// clear, joined by their faces, from the ones next to the start (3 x 3 cells) that it reaches in a straight
+/// line. 1 for them, 0 elsewhere. Throws std::invalid_argument for a negative radius, when the disc is not
+/// clear at the start, or when it can reach no centre from there. O(cells).
+[[nodiscard]] inline Grid<std::uint8_t, 2> reachable_positions(const ObstacleField& obstacles,
+                                                               const Point<2>& start_m, double radius_m) {
+  require_non_negative("reachable_positions", "radius_m", radius_m);
+  const double clearance_m = obstacles.clearance_m(start_m);
+  require(obstacles.disc_is_clear(start_m, radius_m), "reachable_positions",
+          "the clearance in m at the start", clearance_m, "at least the radius of the disc");
+
+  const auto is_set = [](std::uint8_t value) { return value != 0; };
+  Grid<std::uint8_t, 2> positions = disc_positions(obstacles, radius_m);
+  const Components<2> regions = connected_components(positions, Adjacency::faces, is_set);
+  std::vector<std::uint8_t> is_reached(regions.sizes.size(), 0);
+  bool any = false;
+  const Index<2> first = obstacles.lattice().index_of(start_m).array() - 1;
+  for (int i = 0; i < 9; ++i) {
+    const Index<2> cell = first + Index<2>(i % 3, i / 3);
+    const std::int32_t region = regions.labels.value(cell);
+    if (region == Components<2>::none) continue;
+    const Point<2> way_m = obstacles.lattice().center_m(cell) - start_m;
+    const double length_m = way_m.norm();
+    const auto position_at = [&](double s_m) -> Point<2> {
+      return start_m + way_m * (length_m > 0.0 ? s_m / length_m : 0.0);
+    };
+    if (clear_length_m(obstacles, radius_m, length_m, position_at) < length_m) continue;
+    is_reached[static_cast<std::size_t>(region)] = 1;
+    any = true;
+  }
+  if (!any)
+    throw std::invalid_argument(
+        "reachable_positions: the disc can reach the centre of no cell from the start");
+
+  for (Offset cell = 0; cell < static_cast<Offset>(positions.size()); ++cell) {
+    const std::int32_t region = regions.labels[cell];
+    positions[cell] =
+        region == Components<2>::none ? std::uint8_t{0} : is_reached[static_cast<std::size_t>(region)];
+  }
+  return positions;
+}
+
+namespace detail {
+
+enum class FloorView : std::uint8_t {
+  blocked,
+  hidden,   ///< not seen, or not yet
+  seen,     ///< from a position, but none itself
+  position  ///< where the disc can stand
+};
+
+/// Boxes of cells, for each hidden region those that all light into it passes.
+using Portals = std::vector<std::vector<IndexBox<2>>>;
+
+/// Light enters a region of hidden cells only through the cells around it that are not hidden: these, put
+/// together in square tiles. Regions are joined by corners, as lines of sight pass from cell to cell.
+[[nodiscard]] inline Portals portals_of(const Grid<FloorView, 2>& cells, const Components<2>& hidden) {
+  constexpr int tile_cells = 16;
+  const std::vector<Index<2>> steps = neighbor_steps<2>(Adjacency::corners);
+  std::vector<std::map<std::pair<int, int>, IndexBox<2>>> tiles(hidden.sizes.size());
+  for (Offset cell = 0; cell < static_cast<Offset>(cells.size()); ++cell) {
+    if (cells[cell] != FloorView::hidden) continue;
+    for (const Index<2>& step : steps) {
+      const Index<2> beside = cells.index_at(cell) + step;
+      const FloorView view = cells.value(beside);
+      if (view != FloorView::seen && view != FloorView::position) continue;
+      const Index<2> place = (beside - cells.box().lower) / tile_cells;
+      IndexBox<2>& box = tiles[static_cast<std::size_t>(hidden.labels[cell])][{place.x(), place.y()}];
+      box = enclosing_box(box, {beside, (beside.array() + 1).matrix()});
+    }
+  }
+  Portals portals(tiles.size());
+  for (std::size_t region = 0; region < tiles.size(); ++region) {
+    for (const auto& [place, box] : tiles[region]) portals[region].push_back(box);
+  }
+  return portals;
+}
+
+}  // namespace detail
+
+/// The floor that can be seen on a drive from `start_m`: the cells whose centre lies within range_max_m and
+/// in sight (FieldOfView) of the centre of a cell that a disc can reach (reachable_positions). 1 for them, 0
+/// elsewhere. Throws as reachable_positions does, and for a range that is not finite and >= 0. O(cells), and
+/// for each cell that no near position sees a walk towards every gap by which light enters its region.
+[[nodiscard]] inline Grid<std::uint8_t, 2> visible_floor(const ObstacleField& obstacles,
+                                                         const Point<2>& start_m, double radius_m,
+                                                         double range_max_m) {
+  require_non_negative("visible_floor", "range_max_m", range_max_m);
+  using detail::FloorView;
+  Grid<std::uint8_t, 2> visible = reachable_positions(obstacles, start_m, radius_m);
+  Grid<FloorView, 2> cells(visible.lattice(), visible.box(), FloorView::blocked);
+  for (Offset cell = 0; cell < static_cast<Offset>(cells.size()); ++cell) {
+    if (visible[cell] != 0) {
+      cells[cell] = FloorView::position;
+    } else if (!obstacles.is_blocked(cells.index_at(cell))) {
+      cells[cell] = FloorView::hidden;
+    }
+  }
+
+  // Sight is symmetric: look from the floor for a position. Most floor beyond the positions lies along walls
+  // and sees one near by; where the disc has room but never comes, none is that near.
+  FieldOfView view;
+  const auto blocks = [](FloorView cell) { return cell == FloorView::blocked; };
+  const double near_m = std::min(2.0 * (radius_m + obstacles.resolution_m()), range_max_m);
+  for (Offset cell = 0; cell < static_cast<Offset>(cells.size()); ++cell) {
+    const Index<2> index = cells.index_at(cell);
+    if (cells[cell] != FloorView::hidden) continue;
+    if (obstacles.disc_is_clear(cells.lattice().center_m(index), radius_m)) continue;
+    view.visit_visible(cells, index, near_m, blocks, [&](const Index<2>& other) {
+      if (cells.value(other) != FloorView::position) return true;
+      cells[cell] = FloorView::seen;
+      return false;
+    });
+  }
+
+  // The rest sees a position only through a portal of its region.
+  const Components<2> hidden = connected_components(cells, Adjacency::corners,
+                                                    [](FloorView cell) { return cell == FloorView::hidden; });
+  const detail::Portals portals = detail::portals_of(cells, hidden);
+  const double range_cells = range_max_m / obstacles.resolution_m();
+  for (Offset cell = 0; cell < static_cast<Offset>(cells.size()); ++cell) {
+    visible[cell] = cells[cell] == FloorView::seen || cells[cell] == FloorView::position ? 1 : 0;
+    if (cells[cell] != FloorView::hidden) continue;
+    const Index<2> index = cells.index_at(cell);
+    for (const IndexBox<2>& portal : portals[static_cast<std::size_t>(hidden.labels[cell])]) {
+      const Index<2> nearest = index.cwiseMax(portal.lower).cwiseMin((portal.upper.array() - 1).matrix());
+      if ((nearest - index).cast<double>().norm() > range_cells + 1.0) continue;
+      view.visit_visible_toward(cells, index, portal, range_max_m, blocks, [&](const Index<2>& other) {
+        if (cells.value(other) != FloorView::position) return true;
+        visible[cell] = 1;
+        return false;
+      });
+      if (visible[cell] != 0) break;
+    }
+  }
+  return visible;
+}
+
+}  // namespace incognita
