@@ -17,6 +17,7 @@
 #include "incognita/entropy/log_odds_table.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/exploration/information_gain.hpp"
+#include "incognita/planning/polyline.hpp"
 
 namespace coupling {
 
@@ -31,12 +32,10 @@ namespace coupling {
                                               {{8.0, 18.0}, {8.2, 20.0}}});
 }
 
-constexpr double kCandidateLength_m = 14.0;
-
 /// A path, what it is predicted to tell, and how the pose's belief is predicted to fare on it.
 struct RankedPath {
   std::string name;
-  std::vector<Eigen::Vector2d> path_m;
+  incognita::Polyline path;
   double gain_nats = 0.0;                           ///< BIG, (18)
   double gain_exact_pose_nats = 0.0;                ///< the same if the robot always knew its pose
   std::vector<incognita::PoseBelief> beliefs = {};  ///< after each predicted scan
@@ -76,19 +75,19 @@ struct Ranking {
   Map map = empty_map(scene);
   survey(scene, {6.0, 1.0}, {6.0, 19.0}, map);
 
-  using Path = std::vector<Eigen::Vector2d>;
   const Eigen::Vector2d start(6.0, 9.0);
-  // All equally long, so that none wins by its length.
   std::vector<RankedPath> paths;
-  const auto add = [&](std::string name, Path path_m) {
-    paths.push_back({.name = std::move(name), .path_m = std::move(path_m)});
+  const auto add = [&](std::string name, std::vector<Eigen::Vector2d> corners_m) {
+    corners_m.insert(corners_m.begin(), start);
+    paths.push_back({.name = std::move(name), .path = incognita::Polyline(std::move(corners_m))});
   };
-  add("straight into the unknown", {start, {20.0, 9.0}});
-  add("aslant into the unknown", {start, {9.5, 9.0}, {16.924621, 16.424621}});
-  add("along the unknown side of the wall", {start, {10.5, 9.0}, {10.5, 18.5}});
-  add("to the far door, then in", {start, {6.0, 17.0}, {12.0, 17.0}});
-  add("to the near door, then in", {start, {6.0, 3.0}, {14.0, 3.0}});
-  add("known corridor only", {start, {6.0, 16.0}, {6.0, 9.0}});
+  // All equally long, so that none wins by its length.
+  add("straight into the unknown", {{20.0, 9.0}});
+  add("aslant into the unknown", {{9.5, 9.0}, {16.9246212, 16.4246212}});
+  add("along the unknown side of the wall", {{10.5, 9.0}, {10.5, 18.5}});
+  add("to the far door, then in", {{6.0, 17.0}, {12.0, 17.0}});
+  add("to the near door, then in", {{6.0, 3.0}, {14.0, 3.0}});
+  add("known corridor only", {{4.9, 9.0}, {4.9, 1.1}, {7.1, 1.1}, {7.1, 3.9}});
 
   const incognita::DvlEkf filter;
   const incognita::PoseBelief start_belief{{start.x(), start.y(), 0.0},
@@ -98,14 +97,40 @@ struct Ranking {
   for (RankedPath& path : paths) {
     std::vector<incognita::PoseBelief> unused;
     path.gain_nats = incognita::information_gain(
-        map, entropy, Prediction{filter, start_belief, path.beliefs, false}, path.path_m, params, workspace);
+        map, entropy, Prediction{filter, start_belief, path.beliefs, false}, path.path, params, workspace);
     path.gain_exact_pose_nats = incognita::information_gain(
         map, entropy, Prediction{filter, {start_belief.pose, Eigen::Matrix3d::Zero()}, unused, true},
-        path.path_m, params, workspace);
+        path.path, params, workspace);
   }
   std::stable_sort(paths.begin(), paths.end(),
                    [](const RankedPath& a, const RankedPath& b) { return a.gain_nats > b.gain_nats; });
   return {std::move(scene), std::move(map), std::move(paths)};
+}
+
+inline void write_candidates(const std::filesystem::path& path, const Ranking& ranking) {
+  write_csv(path, "rank,path,length_m,gain_nats,gain_exact_pose_nats,final_sigma_m", [&](std::ostream& out) {
+    for (std::size_t rank = 0; rank < ranking.paths.size(); ++rank) {
+      const RankedPath& candidate = ranking.paths[rank];
+      out << rank + 1 << ",\"" << candidate.name << "\"," << candidate.path.length_m() << ','
+          << candidate.gain_nats << ',' << candidate.gain_exact_pose_nats << ','
+          << incognita::position_sigma_m(candidate.beliefs.back().covariance) << '\n';
+    }
+  });
+}
+
+/// The ellipses along the paths.
+inline void write_candidate_beliefs(const std::filesystem::path& path, const Ranking& ranking) {
+  write_csv(path, "rank,x_m,y_m,variance_x_m2,covariance_xy_m2,variance_y_m2,yaw_variance_rad2",
+            [&](std::ostream& out) {
+              for (std::size_t rank = 0; rank < ranking.paths.size(); ++rank) {
+                for (const incognita::PoseBelief& belief : ranking.paths[rank].beliefs) {
+                  const Eigen::Matrix3d& covariance = belief.covariance;
+                  out << rank + 1 << ',' << belief.pose.x_m << ',' << belief.pose.y_m << ','
+                      << covariance(0, 0) << ',' << covariance(0, 1) << ',' << covariance(1, 1) << ','
+                      << covariance(2, 2) << '\n';
+                }
+              }
+            });
 }
 
 }  // namespace coupling

@@ -41,7 +41,7 @@ constexpr double kDriveTo_m = 14.0;
 enum class Surroundings { known, unknown_walls, unknown_empty };
 
 [[nodiscard]] inline std::string name_of(Surroundings surroundings) {
-  if (surroundings == Surroundings::known) return "known";
+  if (surroundings == Surroundings::known) return "known, with walls";
   return surroundings == Surroundings::unknown_walls ? "unknown, with walls" : "unknown, empty";
 }
 
@@ -142,7 +142,7 @@ inline void draw_drives(const std::filesystem::path& path, const std::vector<Dri
                           .x_label = "distance driven past the edge of the known map (m)",
                           .y_label = "pose sigma √(tr Σ) (m)",
                           .x_range = {{-5.0, kDriveTo_m}},
-                          .y_range = {{0.0, 2.5}},
+                          .y_range = {{0.0, 3.0}},
                           .legend = "top left"};
     for (const Drive& drive : drives) {
       if (drive.scans_per_m != scans_per_m) continue;

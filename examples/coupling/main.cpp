@@ -2,17 +2,21 @@
 /// pose's covariance grows out of known surroundings, and candidate paths ranked by their Behavioral
 /// information gain.
 #include <CLI/CLI.hpp>
-#include <array>
 #include <exception>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "coupling/candidate_map.hpp"
 #include "coupling/candidates.hpp"
 #include "coupling/drive.hpp"
+#include "coupling/drive_maps.hpp"
+#include "coupling/update_maps.hpp"
 #include "coupling/update_strength.hpp"
 #include "incognita/entropy/behavioral.hpp"
 #include "support/output_folder.hpp"
@@ -20,30 +24,30 @@
 namespace {
 
 void print(const std::vector<coupling::UpdateStrength>& strengths) {
-  std::cout << "Probability of a cell, from an unknown map\n"
-            << "  pose sigma    hit after 1, 2, 3 scans    passed once, at " << coupling::kResiduals_m[0]
-            << ", " << coupling::kResiduals_m[1] << " m before the hit\n";
+  std::cout << "Probability of a cell of an unknown map\n"
+            << "  pose sigma   hit by 1, 2, 3 scans    passed by 1, at 0.5, 1.5, 2.5, 4.5 m before the hit\n"
+            << std::fixed;
   for (const double sigma_m : {0.0, 0.1, 0.3, 1.0, 2.0, 3.0}) {
     const coupling::UpdateStrength strength = coupling::measure_update_strength(sigma_m);
-    std::cout << std::setw(10) << sigma_m << " m ";
+    std::cout << std::setprecision(1) << std::setw(10) << sigma_m << " m" << std::setprecision(3);
     for (const double l : strength.hit_log_odds) {
-      std::cout << std::setw(8) << incognita::probability_of_log_odds(l);
+      std::cout << std::setw(7) << incognita::probability_of_log_odds(l);
     }
-    std::cout << "      ";
-    for (std::size_t i = 0; i < 2; ++i) {
-      std::cout << std::setw(8) << incognita::probability_of_log_odds(strength.passed_log_odds[i]);
+    std::cout << "    ";
+    for (const double l : strength.passed_log_odds) {
+      std::cout << std::setw(7) << incognita::probability_of_log_odds(l);
     }
     std::cout << '\n';
   }
   if (const std::optional<double> sigma_m = coupling::sigma_of_sign_change_m(strengths)) {
-    std::cout << "  from " << *sigma_m << " m on, a first hit lowers the cell\n";
+    std::cout << "  A first hit lowers the cell from " << std::setprecision(2) << *sigma_m << " m on.\n";
   }
 }
 
 void print(const std::vector<coupling::Drive>& drives) {
-  std::cout << "\nTrace of the position's covariance on a drive of " << coupling::kDriveTo_m
-            << " m past the edge of the known map\n"
-            << "  surroundings           scans a metre   at first     grown   x 3 after   x 10 after\n";
+  std::cout << "\nTrace of the position's covariance, from before the edge of the known map to "
+            << std::setprecision(0) << coupling::kDriveTo_m << " m past it\n"
+            << "  surroundings          scans a metre     at first    grown   x 3 after   x 10 after\n";
   const auto distance = [](const std::optional<double>& distance_m) {
     std::ostringstream text;
     text << std::fixed << std::setprecision(1);
@@ -51,22 +55,24 @@ void print(const std::vector<coupling::Drive>& drives) {
     return text.str();
   };
   for (const coupling::Drive& drive : drives) {
-    std::cout << "  " << std::left << std::setw(23) << name_of(drive.surroundings) << std::right
-              << std::setw(13) << drive.scans_per_m << std::setw(8) << drive.initial_trace_m2() << " m2   x"
-              << std::setw(6) << drive.growth() << std::setw(12) << distance(drive.distance_of_growth_m(3.0))
-              << std::setw(13) << distance(drive.distance_of_growth_m(10.0)) << '\n';
+    std::cout << "  " << std::left << std::setw(22) << name_of(drive.surroundings) << std::right
+              << std::setw(13) << drive.scans_per_m << std::setprecision(3) << std::setw(10)
+              << drive.initial_trace_m2() << " m2" << std::setprecision(2) << std::setw(9) << drive.growth()
+              << std::setw(12) << distance(drive.distance_of_growth_m(3.0)) << std::setw(13)
+              << distance(drive.distance_of_growth_m(10.0)) << '\n';
   }
 }
 
 void print(const coupling::Ranking& ranking, double alpha) {
-  std::cout << "\nCandidates of " << coupling::kCandidateLength_m << " m by information gain, alpha " << alpha
-            << "\n  path                                   BIG   with an exact pose   sigma at the end\n";
+  std::cout
+      << "\nPaths of " << ranking.paths.front().path.length_m() << " m by Behavioral information gain, alpha "
+      << std::defaultfloat << alpha << std::fixed << "\n"
+      << "  path                                  gain (nats)   with an exact pose   sigma at the end\n";
   for (const coupling::RankedPath& path : ranking.paths) {
-    std::cout << "  " << std::left << std::setw(34) << path.name << std::right << std::fixed
-              << std::setprecision(1) << std::setw(8) << path.gain_nats << std::setw(17)
-              << path.gain_exact_pose_nats << " nats" << std::setprecision(2) << std::setw(14)
-              << incognita::position_sigma_m(path.beliefs.back().covariance) << " m\n"
-              << std::defaultfloat;
+    std::cout << "  " << std::left << std::setw(38) << path.name << std::right << std::setprecision(1)
+              << std::setw(11) << path.gain_nats << std::setw(21) << path.gain_exact_pose_nats
+              << std::setprecision(2) << std::setw(17)
+              << incognita::position_sigma_m(path.beliefs.back().covariance) << " m\n";
   }
 }
 
@@ -76,12 +82,16 @@ void run(const incognita::Behavioral& entropy, const std::filesystem::path& fold
   const coupling::Ranking ranking = coupling::rank_candidates(incognita::EntropyTable(entropy));
 
   examples::OutputFolder output(folder);
-  coupling::write_update_strengths(output.staged("map_updates.csv"), strengths);
-  coupling::draw_update_strengths(output.staged("map_updates.png"), strengths);
+  coupling::write_update_strengths(output.staged("updates.csv"), strengths);
+  coupling::draw_update_strengths(output.staged("updates.png"), strengths);
+  coupling::draw_update_maps(output.staged("update_maps.png"));
   coupling::write_drives(output.staged("drives.csv"), drives);
   coupling::draw_drives(output.staged("drives.png"), drives);
+  coupling::draw_drive_maps(output.staged("drive_maps.png"), drives);
+  coupling::write_candidates(output.staged("candidates.csv"), ranking);
+  coupling::write_candidate_beliefs(output.staged("candidate_beliefs.csv"), ranking);
+  coupling::draw_candidates(output.staged("candidates.png"), ranking, entropy.alpha());
 
-  std::cout << std::setprecision(3);
   print(strengths);
   print(drives);
   print(ranking, entropy.alpha());

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
