@@ -17,7 +17,9 @@ namespace incognita {
 /// How far a disc-shaped robot keeps away from what it measures.
 struct CollisionGuardParams {
   double robot_radius_m = 0.2;
-  double margin_m = 0.03;              ///< beyond the radius; small, for doors hardly wider than the robot
+  double margin_m = 0.03;        ///< beyond the radius
+  double creep_margin_m = 0.01;  ///< enough up to creep_speed, for doors hardly wider than the robot
+  double creep_speed_m_per_s = 0.1;
   double reaction_time_s = 0.15;       ///< from a scan to the moment at which the robot brakes
   double deceleration_m_per_s2 = 1.0;  ///< of the robot
   double speed_min_m_per_s = 0.02;     ///< slower than this is standing still
@@ -26,9 +28,12 @@ struct CollisionGuardParams {
   void validate() const {
     require_positive("CollisionGuardParams", "robot_radius_m", robot_radius_m);
     require_non_negative("CollisionGuardParams", "margin_m", margin_m);
+    require(creep_margin_m >= 0.0 && creep_margin_m <= margin_m, "CollisionGuardParams", "creep_margin_m",
+            creep_margin_m, ">= 0 and <= margin_m");
+    require_non_negative("CollisionGuardParams", "creep_speed_m_per_s", creep_speed_m_per_s);
     require_non_negative("CollisionGuardParams", "reaction_time_s", reaction_time_s);
     require_positive("CollisionGuardParams", "deceleration_m_per_s2", deceleration_m_per_s2);
-    require_non_negative("CollisionGuardParams", "speed_min_m_per_s", speed_min_m_per_s);
+    require_positive("CollisionGuardParams", "speed_min_m_per_s", speed_min_m_per_s);
   }
 };
 
@@ -56,41 +61,46 @@ struct CollisionGuardParams {
   return turn_m * std::max(0.0, along_rad - std::acos(std::max(-1.0, cosine)));
 }
 
-/// `command` slowed down, on the same arc, until the robot can stop before any measured point comes within
-/// its radius and margin. A point that is within them already must not come nearer than the radius and a
-/// third of the margin, and one that is within that not nearer at all. Where no speed is left the robot still
-/// turns in place, which is always safe for a disc. Never faster than the command, never the other way.
-/// `scan` is in the robot's frame, its latest; beams without a hit are ignored. Throws std::invalid_argument
-/// for parameters outside of their bounds. O(beams).
+/// `command` with its speed lowered until the robot can stop before any measured point comes within its
+/// radius and margin, or within its radius and creep_margin_m while it creeps; what is nearer than that
+/// already must not come nearer still. It keeps turning as told, which is always safe for a disc, so a robot
+/// that met a wall aslant turns away from it. Speed goes down in steps of a quarter, to 0 below speed_min;
+/// never up, never the other way. `scan` is in the robot's frame, its latest; beams without a hit are
+/// ignored. Throws std::invalid_argument for parameters outside of their bounds. O(beams).
 [[nodiscard]] inline Twist2 guard_command(const Twist2& command, const Scan<2>& scan,
                                           const CollisionGuardParams& params = {}) {
   params.validate();
-  const double speed_m_per_s = std::abs(command.speed_m_per_s);
-  if (!(speed_m_per_s > 0.0)) return command;
-  const double curvature_per_m = command.turn_rate_rad_per_s / speed_m_per_s;
-  const double heading = command.speed_m_per_s > 0.0 ? 1.0 : -1.0;  // backwards: mirrored, turn included
-  const double brake = params.deceleration_m_per_s2;
-  const double stopping_m =
-      speed_m_per_s * params.reaction_time_s + speed_m_per_s * speed_m_per_s / (2.0 * brake);
-  const double keep_m = params.robot_radius_m + params.margin_m;
-  const double touch_m = params.robot_radius_m + params.margin_m / 3.0;
-
-  double free_m = stopping_m;
+  double nearest_m = std::numeric_limits<double>::infinity();
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    if (scan.range_m(beam) > stopping_m + keep_m || scan.reading(beam) != Reading::hit) continue;
-    const double range_m = scan.range_m(beam);
-    const double radius_m = range_m > keep_m ? keep_m : std::min(range_m, touch_m);
-    Eigen::Vector2d obstacle_m = scan.end_point_m(beam);
-    obstacle_m.x() *= heading;
-    free_m = std::min(free_m, distance_to_contact_m(obstacle_m, heading * curvature_per_m, radius_m));
+    if (scan.reading(beam) == Reading::hit) nearest_m = std::min(nearest_m, scan.range_m(beam));
   }
-  if (free_m >= stopping_m) return command;
-  // The largest v with v * reaction_time + v^2 / (2 brake) <= free_m.
-  const double lost_m_per_s = brake * params.reaction_time_s;
-  const double allowed_m_per_s = std::sqrt(lost_m_per_s * lost_m_per_s + 2.0 * brake * free_m) - lost_m_per_s;
-  if (allowed_m_per_s < params.speed_min_m_per_s) return {0.0, command.turn_rate_rad_per_s};
-  const double scale = std::min(1.0, allowed_m_per_s / speed_m_per_s);
-  return {scale * command.speed_m_per_s, scale * command.turn_rate_rad_per_s};
+  const double keep_m = params.robot_radius_m + params.margin_m;
+  const double creep_keep_m =
+      std::clamp(nearest_m, params.robot_radius_m, params.robot_radius_m + params.creep_margin_m);
+  const double heading = command.speed_m_per_s < 0.0 ? -1.0 : 1.0;  // backwards: mirrored, turn included
+
+  const auto can_stop = [&](double speed_m_per_s) {
+    const double radius_m = speed_m_per_s <= params.creep_speed_m_per_s ? creep_keep_m : keep_m;
+    const double curvature_per_m = heading * command.turn_rate_rad_per_s / speed_m_per_s;
+    const double stopping_m = speed_m_per_s * params.reaction_time_s +
+                              speed_m_per_s * speed_m_per_s / (2.0 * params.deceleration_m_per_s2);
+    if (nearest_m > radius_m + stopping_m) return true;
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      const double range_m = scan.range_m(beam);
+      if (range_m > radius_m + stopping_m || scan.reading(beam) != Reading::hit) continue;
+      Eigen::Vector2d obstacle_m = scan.end_point_m(beam);
+      obstacle_m.x() *= heading;
+      if (distance_to_contact_m(obstacle_m, curvature_per_m, std::min(range_m, radius_m)) < stopping_m)
+        return false;
+    }
+    return true;
+  };
+  double speed_m_per_s = std::abs(command.speed_m_per_s);
+  while (speed_m_per_s > 0.0 && !can_stop(speed_m_per_s)) {
+    speed_m_per_s *= 0.75;
+    if (speed_m_per_s < params.speed_min_m_per_s) speed_m_per_s = 0.0;
+  }
+  return {heading * speed_m_per_s, command.turn_rate_rad_per_s};
 }
 
 }  // namespace incognita

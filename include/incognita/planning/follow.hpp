@@ -24,9 +24,9 @@ struct FollowParams {
   double deceleration_m_per_s2 = 1.0;  ///< how hard it brakes before corners and the end
   double lookahead_m = 0.6;            ///< it aims at a place on the path this far ahead
   double lookahead_min_m = 0.15;       ///< or nearer, down to this,
-  double deviation_max_m = 0.04;       ///< when the path leaves the straight line to that place by more
-  double turn_in_place_rad = 0.8;      ///< it turns in place when the place lies further aside; < pi / 2
-  double goal_tolerance_m = 0.1;       ///< this near to its end the path is finished
+  double deviation_max_m = 0.04;   ///< when the path or its own arc leaves the straight line there by more
+  double turn_in_place_rad = 0.6;  ///< it turns in place when the place lies further aside; < pi / 2
+  double goal_tolerance_m = 0.1;   ///< this near to its end the path is finished
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -71,16 +71,18 @@ class PathFollower {
       return {};
     }
 
-    const Eigen::Vector2d to_target = path_.point_at(progress_m_ + lookahead_m()) - position;
-    const double aside_rad = angle_between_rad(T_map_robot.yaw_rad, std::atan2(to_target.y(), to_target.x()));
-    if (std::abs(aside_rad) > params_.turn_in_place_rad) {
+    const Target target = aim(T_map_robot);
+    // Once begun, a turn is finished: an arc that begins far aside swings wide.
+    turning_ = std::abs(target.aside_rad) > (turning_ ? 0.25 : 1.0) * params_.turn_in_place_rad;
+    if (turning_) {
       const double rate_rad_per_s = params_.turn_rate_max_rad_per_s;
-      return {0.0, std::clamp(2.0 * aside_rad, -rate_rad_per_s, rate_rad_per_s)};
+      return {0.0, std::clamp(2.0 * target.aside_rad, -rate_rad_per_s, rate_rad_per_s)};
     }
     // The arc through the target.
-    const double curvature_per_m = 2.0 * std::sin(aside_rad) / std::max(to_target.norm(), 1e-6);
-    const double speed_m_per_s = std::min(
-        braking_speed_m_per_s(), params_.turn_rate_max_rad_per_s / std::max(std::abs(curvature_per_m), 1e-6));
+    const double curvature_per_m = 2.0 * std::sin(target.aside_rad) / std::max(target.distance_m, 1e-6);
+    const double speed_m_per_s =
+        std::min(braking_speed_m_per_s(end_distance_m),
+                 params_.turn_rate_max_rad_per_s / std::max(std::abs(curvature_per_m), 1e-6));
     return {speed_m_per_s, speed_m_per_s * curvature_per_m};
   }
 
@@ -92,36 +94,55 @@ class PathFollower {
   [[nodiscard]] const Polyline& path() const { return path_; }
 
  private:
-  /// The look-ahead, shortened while the path leaves its chord too far: so a corner is not cut.
-  [[nodiscard]] double lookahead_m() const {
-    const Eigen::Vector2d from = path_.point_at(progress_m_);
-    double ahead_m = params_.lookahead_m;
-    while (ahead_m > params_.lookahead_min_m) {
-      const Eigen::Vector2d chord = path_.point_at(progress_m_ + ahead_m) - from;
-      double deviation_m = 0.0;
-      for (std::size_t i = path_.corner_after(progress_m_); path_.arc_m(i) < progress_m_ + ahead_m; ++i) {
-        const Eigen::Vector2d corner = path_.points_m()[i] - from;
-        const double share = std::clamp(corner.dot(chord) / std::max(chord.squaredNorm(), 1e-12), 0.0, 1.0);
-        deviation_m = std::max(deviation_m, (corner - share * chord).norm());
-        if (i + 1 == path_.points_m().size()) break;
+  /// Where to aim, as seen from the robot.
+  struct Target {
+    double distance_m;
+    double aside_rad;
+  };
+
+  /// The place on the path lookahead_m ahead, or a nearer one while the path leaves its chord too far (so a
+  /// corner is not cut) or the arc to it would (so the robot does not swing out of one).
+  [[nodiscard]] Target aim(const Pose2& T_map_robot) const {
+    for (double ahead_m = params_.lookahead_m;; ahead_m *= 0.8) {
+      ahead_m = std::max(ahead_m, params_.lookahead_min_m);
+      const Eigen::Vector2d to_target = path_.point_at(progress_m_ + ahead_m) - T_map_robot.position();
+      const double bearing_rad = std::atan2(to_target.y(), to_target.x());
+      const Target target{to_target.norm(), angle_between_rad(T_map_robot.yaw_rad, bearing_rad)};
+      const double swing_m = 0.5 * target.distance_m * std::tan(0.5 * std::abs(target.aside_rad));
+      if (ahead_m == params_.lookahead_min_m ||
+          std::max(swing_m, corner_beside_chord_m(ahead_m)) <= params_.deviation_max_m) {
+        return target;
       }
-      if (deviation_m <= params_.deviation_max_m) break;
-      ahead_m *= 0.8;
     }
-    return std::max(ahead_m, params_.lookahead_min_m);
+  }
+
+  /// How far the path up to ahead_m further along leaves the straight line to there.
+  [[nodiscard]] double corner_beside_chord_m(double ahead_m) const {
+    const Eigen::Vector2d from = path_.point_at(progress_m_);
+    const Eigen::Vector2d chord = path_.point_at(progress_m_ + ahead_m) - from;
+    double deviation_m = 0.0;
+    for (std::size_t i = path_.corner_after(progress_m_);
+         i < path_.points_m().size() && path_.arc_m(i) < progress_m_ + ahead_m; ++i) {
+      const Eigen::Vector2d corner = path_.points_m()[i] - from;
+      const double share = std::clamp(corner.dot(chord) / std::max(chord.squaredNorm(), 1e-12), 0.0, 1.0);
+      deviation_m = std::max(deviation_m, (corner - share * chord).norm());
+    }
+    return deviation_m;
   }
 
   /// The speed from which the robot can brake before each corner to what the corner allows, and at the end to
   /// a crawl.
-  [[nodiscard]] double braking_speed_m_per_s() const {
+  [[nodiscard]] double braking_speed_m_per_s(double end_distance_m) const {
     const double crawl_m_per_s = 0.1 * params_.speed_max_m_per_s;
     double speed_m_per_s = params_.speed_max_m_per_s;
     const auto& points_m = path_.points_m();
     for (std::size_t i = path_.corner_after(progress_m_); i < points_m.size(); ++i) {
-      const double before_m = path_.arc_m(i) - progress_m_;
+      const bool is_end = i + 1 == points_m.size();
+      const double before_m =
+          is_end ? std::max(path_.arc_m(i) - progress_m_, end_distance_m) : path_.arc_m(i) - progress_m_;
       if (2.0 * params_.deceleration_m_per_s2 * before_m > speed_m_per_s * speed_m_per_s) break;
       double corner_m_per_s = crawl_m_per_s;
-      if (i > 0 && i + 1 < points_m.size()) {
+      if (i > 0 && !is_end) {
         const Eigen::Vector2d in = points_m[i] - points_m[i - 1];
         const Eigen::Vector2d out = points_m[i + 1] - points_m[i];
         const double turn_rad = std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
@@ -138,6 +159,7 @@ class PathFollower {
   Polyline path_;
   FollowParams params_;
   double progress_m_ = 0.0;
+  bool turning_ = false;  ///< in place
   bool finished_ = true;
 };
 

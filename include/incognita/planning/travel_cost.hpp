@@ -28,7 +28,7 @@ struct TravelParams {
   double margin_m = 0.02;
   double clearance_soft_m =
       0.6;  ///< under this clearance c a metre costs 1 + clearance_weight (1 - c / this)^2
-  double clearance_weight = 4.0;    ///< >= 0
+  double clearance_weight = 10.0;   ///< >= 0
   double escape_radius_m = 0.6;     ///< how far a robot may drive where it cannot be, to get to where it can
   double escape_cost_per_m = 20.0;  ///< of driving there, > 1 + clearance_weight
 
