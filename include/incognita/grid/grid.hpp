@@ -114,8 +114,8 @@ class Grid {
     return count;
   }
 
-  /// `grown`, which holds the grid's box, with each side that moves moved by at least half of the grid's extent, as far
-  /// as indices go.
+  /// `grown`, which holds the grid's box, with each side that moves moved by at least half of the grid's
+  /// extent, as far as indices go.
   [[nodiscard]] IndexBox<Dim> with_margins(IndexBox<Dim> grown) const {
     using Limits = std::numeric_limits<int>;
     for (int axis = 0; axis < Dim && !box_.empty(); ++axis) {
