@@ -1,0 +1,8 @@
+/// core/: what every other room stands on. Angles, errors that name the value and its bound, seeded random numbers,
+/// and the loop over threads, the only place that names OpenMP.
+#pragma once
+
+#include "incognita/core/angles.hpp"
+#include "incognita/core/error.hpp"
+#include "incognita/core/parallel.hpp"
+#include "incognita/core/random.hpp"

@@ -1,0 +1,13 @@
+/// estimation/: where the robot is. `DvlEkf` weighs each hit by the map's confidence (Seo et al., section IV-B);
+/// `DeadReckoning` is the baseline. Both model the concept Estimator, whose page states the laws. `register_scan`,
+/// `ray_update` and `propagate` are the filter's steps as free functions; `SurfaceMap` holds what registration needs.
+#pragma once
+
+#include "incognita/estimation/dead_reckoning.hpp"
+#include "incognita/estimation/dvl_ekf.hpp"
+#include "incognita/estimation/estimator.hpp"
+#include "incognita/estimation/information.hpp"
+#include "incognita/estimation/pose_belief.hpp"
+#include "incognita/estimation/ray_update.hpp"
+#include "incognita/estimation/registration.hpp"
+#include "incognita/estimation/surface_map.hpp"

@@ -1,0 +1,98 @@
+/// Ways to go and see: candidate paths to frontiers and what each is worth.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "incognita/core/parallel.hpp"
+#include "incognita/exploration/information_gain.hpp"
+#include "incognita/frontier/frontier.hpp"
+#include "incognita/grid/traversal.hpp"
+#include "incognita/map/occupancy.hpp"
+#include "incognita/planning/path.hpp"
+#include "incognita/planning/travel_cost.hpp"
+
+namespace incognita {
+
+/// A path from the robot to a place from which a frontier is seen.
+struct Candidate {
+  Eigen::Vector2d frontier_m = Eigen::Vector2d::Zero();  ///< a cell of the frontier, near its middle
+  std::vector<Index<2>> sought;                          ///< the unknown cells beside the frontier
+  Polyline path;                                         ///< from the robot to the goal
+  double gain_nats = 0.0;  ///< what the path is predicted to tell; BIG with a behavioral entropy
+  double utility = 0.0;    ///< what candidates are ranked by
+
+  [[nodiscard]] const Eigen::Vector2d& goal_m() const { return path.points_m().back(); }
+};
+
+/// The reachable cell nearest to `target` within radius_m from which the straight line to the target meets no occupied
+/// cell; among equals the one cheapest to reach. None when there is no such cell.
+[[nodiscard]] inline std::optional<Index<2>> find_viewpoint(const OccupancyGrid<2>& occupancy,
+                                                            const TravelCostField& field, const Index<2>& target,
+                                                            double radius_m) {
+  const Lattice<2>& lattice = occupancy.lattice();
+  const int reach = static_cast<int>(radius_m / lattice.resolution_m());
+  const auto sees_target = [&](const Index<2>& from) {
+    bool clear = true;
+    traverse<2>(lattice, lattice.center_m(from), lattice.center_m(target), [&](const Index<2>& index) {
+      clear = occupancy.value(index) != Occupancy::occupied;
+      return clear;
+    });
+    return clear;
+  };
+  std::optional<Index<2>> best;
+  int best_distance2 = reach * reach;
+  float best_cost_m = std::numeric_limits<float>::infinity();
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const int distance2 = dx * dx + dy * dy;
+      if (distance2 > best_distance2) continue;
+      const Index<2> index = target + Index<2>(dx, dy);
+      if (!field.reaches(index)) continue;
+      const float cost_m = field.cost_m(index);
+      if (distance2 == best_distance2 && cost_m >= best_cost_m) continue;
+      if (!sees_target(index)) continue;
+      best = index;
+      best_distance2 = distance2;
+      best_cost_m = cost_m;
+    }
+  }
+  return best;
+}
+
+/// The unknown cells that share a face with a cell of the frontier, each once, in the order of the frontier's cells.
+[[nodiscard]] inline std::vector<Index<2>> unknown_beside(const OccupancyGrid<2>& occupancy, const Frontier<2>& frontier) {
+  std::vector<Index<2>> unknown;
+  for (const Index<2>& cell : frontier.cells) {
+    for (const Index<2>& step : {Index<2>(1, 0), Index<2>(-1, 0), Index<2>(0, 1), Index<2>(0, -1)}) {
+      if (occupancy.value(cell + step) == Occupancy::unknown) unknown.push_back(cell + step);
+    }
+  }
+  const auto before = [](const Index<2>& a, const Index<2>& b) {
+    return a.y() != b.y() ? a.y() < b.y() : a.x() < b.x();
+  };
+  std::sort(unknown.begin(), unknown.end(), before);
+  unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
+  return unknown;
+}
+
+/// The information gain of every candidate, into its gain_nats, over `threads` threads (0: OpenMP's own number). Each
+/// candidate is evaluated by itself, so the result does not depend on the number of threads. `workspaces` is scratch.
+template <CellPolicy Cell, class Filter>
+void evaluate_candidates(const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
+                         std::vector<Candidate>& candidates, const GainParams& params, int threads,
+                         std::vector<GainWorkspace<Cell>>& workspaces) {
+  while (workspaces.size() < static_cast<std::size_t>(worker_count(threads))) workspaces.emplace_back(params);
+  for_each_index(candidates.size(), threads, [&](std::size_t index, int worker) {
+    Candidate& candidate = candidates[index];
+    candidate.gain_nats = information_gain(map, entropy, filter, candidate.path, params,
+                                           workspaces[static_cast<std::size_t>(worker)]);
+  });
+}
+
+}  // namespace incognita

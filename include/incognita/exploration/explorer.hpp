@@ -1,0 +1,289 @@
+/// The loop of an exploring robot: estimate, map, decide where to go, and how to drive there.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "incognita/entropy/behavioral.hpp"
+#include "incognita/estimation/dvl_ekf.hpp"
+#include "incognita/exploration/candidate.hpp"
+#include "incognita/exploration/set_aside.hpp"
+#include "incognita/exploration/stop_reason.hpp"
+#include "incognita/frontier/frontier.hpp"
+#include "incognita/grid/distance_transform.hpp"
+#include "incognita/planning/collision_guard.hpp"
+#include "incognita/planning/follow.hpp"
+#include "incognita/planning/retreat.hpp"
+
+namespace incognita {
+
+/// What candidates are ranked by.
+enum class Ranking {
+  gain,           ///< the information gain alone, (16) and (18) of Seo et al.
+  gain_per_metre  ///< gain / (path length + travel_offset_m): what is near comes first
+};
+
+/// Parameters of an Explorer.
+struct ExplorerParams {
+  OccupancyThresholds thresholds;
+  FrontierParams frontier;
+  TravelParams travel;
+  FollowParams follow;
+  CollisionGuardParams guard;
+  GainParams gain;
+  SetAsideParams set_aside;
+  Ranking ranking = Ranking::gain_per_metre;
+  double travel_offset_m = 2.0;            ///< >= 0
+  int candidates_max = 40;                 ///< the cheapest to reach are evaluated, >= 1
+  double viewpoint_radius_m = 1.5;         ///< how near to a frontier the robot must be able to get
+  double gain_min_nats = 5.0;              ///< candidates that promise less are not worth going
+  double decision_interval_s = 1.0;        ///< a goal that still leads somewhere is not reconsidered sooner
+  double blocked_max_s = 1.0;              ///< standing before an obstacle for longer, the robot retreats from it
+  double retreat_distance_m = 0.1;         ///< how far, before it decides anew
+  double sought_known_share = 0.7;         ///< decide anew when this share of what a goal should show is known
+  double position_sigma_max_m = 1.0;       ///< lost beyond
+  double duration_max_s = std::numeric_limits<double>::infinity();  ///< out of time beyond
+  int threads = 0;                         ///< for the evaluation of candidates; 0: OpenMP's own number
+
+  /// Throws std::invalid_argument for values outside of their bounds.
+  void validate() const {
+    thresholds.validate();
+    frontier.validate();
+    travel.validate();
+    follow.validate();
+    guard.validate();
+    gain.validate();
+    set_aside.validate();
+    require_non_negative("ExplorerParams", "travel_offset_m", travel_offset_m);
+    require(candidates_max >= 1, "ExplorerParams", "candidates_max", candidates_max, ">= 1");
+    require_positive("ExplorerParams", "viewpoint_radius_m", viewpoint_radius_m);
+    require_non_negative("ExplorerParams", "gain_min_nats", gain_min_nats);
+    require_non_negative("ExplorerParams", "decision_interval_s", decision_interval_s);
+    require_positive("ExplorerParams", "blocked_max_s", blocked_max_s);
+    require_positive("ExplorerParams", "retreat_distance_m", retreat_distance_m);
+    require(sought_known_share > 0.0 && sought_known_share <= 1.0, "ExplorerParams", "sought_known_share",
+            sought_known_share, "in (0, 1]");
+    require_positive("ExplorerParams", "position_sigma_max_m", position_sigma_max_m);
+    require(duration_max_s > 0.0, "ExplorerParams", "duration_max_s", duration_max_s, "> 0");
+    require(threads >= 0, "ExplorerParams", "threads", threads, ">= 0");
+  }
+};
+
+/// What was decided and between what.
+struct Decision {
+  double time_s = 0.0;                 ///< since the start
+  std::vector<Candidate> candidates;   ///< highest utility first
+  std::optional<StopReason> stopped;   ///< set when the exploration has ended
+
+  /// The candidate to drive to; null when there is none.
+  [[nodiscard]] const Candidate* chosen() const {
+    return stopped || candidates.empty() ? nullptr : &candidates.front();
+  }
+};
+
+/// Composes a map, an entropy and an estimator into an exploring robot (Seo et al., Algorithm 1). In a loop: move with each
+/// odometry increment, observe with each scan, decide, and drive by command() or by any other means to goal(). The frame is
+/// the robot's start pose. A goal is kept until it is reached, seen enough of, or blocked, so the robot never swings
+/// between two goals while the map stays the same; a goal that fails or tells nothing is set aside until the map around
+/// it changes. Not thread safe; decide() uses threads of its own.
+template <class MapType = Map<TBayes>, EntropyMeasure Entropy = Behavioral, Estimator<MapType> Filter = DvlEkf>
+class Explorer {
+ public:
+  /// Throws std::invalid_argument for parameters outside of their bounds.
+  explicit Explorer(const ExplorerParams& params = {}, MapType map = MapType{}, const Entropy& entropy = Entropy{},
+                    Filter filter = Filter{})
+      : params_(params),
+        map_(std::move(map)),
+        entropy_(entropy),
+        filter_(std::move(filter)),
+        set_aside_(params.set_aside) {
+    params_.validate();
+  }
+
+  /// The robot has moved by `increment`, in its own frame, within duration_s.
+  void move(const Pose2& increment, double duration_s) {
+    filter_.predict(increment, duration_s);
+    time_s_ += duration_s;
+  }
+
+  /// A scan was taken: corrects the pose by the map, then the map by the scan. See Map::update for bad scans.
+  ScanReport observe(const Scan<2>& scan) {
+    filter_.correct(scan, map_);
+    const ScanReport report = map_.update(scan, filter_.belief().pose, filter_.belief().covariance);
+    filter_.learn(scan);
+    reached_ = enclosing_box(reached_, cells_in_reach(map_.lattice(), scan, filter_.belief().pose, map_.hit_push_m()));
+    has_observed_ = true;
+    return report;
+  }
+
+  /// Decides where to go if there is reason to; cheap when there is none. Returns whether it was decided anew.
+  bool decide() {
+    if (decision_.stopped || !has_observed_ || !filter_.is_ready()) return false;
+    if (position_sigma_m(filter_.belief().covariance) > params_.position_sigma_max_m) return stop(StopReason::lost);
+    if (time_s_ >= params_.duration_max_s) return stop(StopReason::out_of_time);
+    if (decision_.chosen() != nullptr && !goal_is_done()) return false;
+    return choose();
+  }
+
+  /// The speeds that follow the chosen path, slowed down before what `scan`, the latest, shows. Zero without a goal.
+  [[nodiscard]] Twist2 command(const Scan<2>& scan) {
+    if (decision_.chosen() == nullptr) return {};
+    const Eigen::Vector2d position = filter_.belief().pose.position();
+    if (retreats_from_) {
+      if ((position - *retreats_from_).norm() < params_.retreat_distance_m) {
+        return guard_command(retreat_command(scan), scan, params_.guard);
+      }
+      retreats_from_.reset();
+      must_decide_ = true;
+    }
+    const Twist2 wanted = follower_.command(filter_.belief().pose);
+    const Twist2 allowed = guard_command(wanted, scan, params_.guard);
+    const bool blocked = wanted.speed_m_per_s > 0.0 && allowed.speed_m_per_s == 0.0;
+    if (!blocked) {
+      unblocked_s_ = time_s_;
+    } else if (time_s_ - unblocked_s_ > params_.blocked_max_s) {
+      retreats_from_ = position;
+    }
+    return allowed;
+  }
+
+  /// Where to go, in the map's frame; none before the first decision and after the last.
+  [[nodiscard]] std::optional<Eigen::Vector2d> goal() const {
+    const Candidate* chosen = decision_.chosen();
+    return chosen == nullptr ? std::nullopt : std::optional<Eigen::Vector2d>(chosen->goal_m());
+  }
+
+  [[nodiscard]] const std::optional<StopReason>& stopped() const { return decision_.stopped; }
+  [[nodiscard]] const Decision& decision() const { return decision_; }
+  [[nodiscard]] const MapType& map() const { return map_; }
+  [[nodiscard]] const Filter& filter() const { return filter_; }
+  [[nodiscard]] const PoseBelief& belief() const { return filter_.belief(); }
+  [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }
+  [[nodiscard]] const ExplorerParams& params() const { return params_; }
+  [[nodiscard]] double time_s() const { return time_s_; }
+
+ private:
+  using Cell = typename MapType::CellType;
+
+  bool stop(StopReason reason) {
+    decision_ = {time_s_, {}, reason};
+    return true;
+  }
+
+  /// Whether the chosen goal has served; marks it to be set aside where it failed.
+  [[nodiscard]] bool goal_is_done() {
+    const Candidate& goal = *decision_.chosen();
+    if (std::exchange(must_decide_, false)) return true;
+    if (follower_.is_finished() || time_s_ > decision_.time_s + patience_s(goal)) {
+      failed_ = goal.frontier_m;
+      return true;
+    }
+    if (path_is_blocked()) return true;
+    if (time_s_ < decision_.time_s + params_.decision_interval_s) return false;
+    const auto is_known = [&](const Index<2>& index) {
+      return params_.thresholds.classify(map_.log_odds(index)) != Occupancy::unknown;
+    };
+    const auto known = std::count_if(goal.sought.begin(), goal.sought.end(), is_known);
+    return static_cast<double>(known) >= params_.sought_known_share * static_cast<double>(goal.sought.size());
+  }
+
+  /// How long a drive may take: three times as long as at full speed, and time to turn.
+  [[nodiscard]] double patience_s(const Candidate& goal) const {
+    return 20.0 + 3.0 * goal.path.length_m() / params_.follow.speed_max_m_per_s;
+  }
+
+  /// Whether a cell became occupied in the way of the rest of the path.
+  [[nodiscard]] bool path_is_blocked() const {
+    const auto is_occupied = [&](const Index<2>& index) {
+      return params_.thresholds.classify(map_.log_odds(index)) == Occupancy::occupied;
+    };
+    // Paths run between cell centres, so half a cell less than what the planner keeps is still clear.
+    const double radius_m = params_.travel.clearance_hard_m() - 0.5 * map_.resolution_m();
+    return !path_is_clear(follower_.path(), map_.lattice(), radius_m, is_occupied, follower_.progress_m());
+  }
+
+  bool choose() {
+    reserve_reach();
+    const OccupancyGrid<2> occupancy = classify(map_, params_.thresholds);
+    if (failed_) set_aside_.add(*failed_, occupancy);
+    failed_.reset();
+    const std::vector<Frontier<2>> frontiers = find_frontiers(occupancy, params_.frontier);
+    if (frontiers.empty()) return stop(StopReason::complete);
+
+    std::vector<Candidate> candidates = find_candidates(occupancy, frontiers);
+    if (candidates.empty()) return stop(StopReason::nothing_reachable);
+    std::erase_if(candidates, [&](const Candidate& c) { return set_aside_.contains(c.frontier_m, occupancy); });
+    if (candidates.size() > static_cast<std::size_t>(params_.candidates_max)) {
+      candidates.resize(static_cast<std::size_t>(params_.candidates_max));
+    }
+    evaluate_candidates(map_, entropy_, filter_, candidates, params_.gain, params_.threads, workspaces_);
+    std::erase_if(candidates, [&](const Candidate& c) { return c.gain_nats < params_.gain_min_nats; });
+    if (candidates.empty()) return stop(StopReason::nothing_informative);
+    for (Candidate& candidate : candidates) candidate.utility = utility(candidate);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.utility > b.utility; });
+    decision_ = {time_s_, std::move(candidates), std::nullopt};
+    follower_ = PathFollower(decision_.chosen()->path.points_m(), params_.follow);
+    return true;
+  }
+
+  /// Prediction must not grow the map: every pose of a path lies in the map's box already, its beams within range of it.
+  void reserve_reach() {
+    const IndexBox<2>& box = reached_;
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(params_.gain.range_max_m + 2.0 * map_.resolution_m());
+    map_.reserve({map_.lattice().center_m(box.lower) - margin, map_.lattice().center_m(box.upper) + margin});
+  }
+
+  /// A candidate for each frontier that can be seen from a reachable place, cheapest to reach first.
+  [[nodiscard]] std::vector<Candidate> find_candidates(const OccupancyGrid<2>& occupancy,
+                                                       const std::vector<Frontier<2>>& frontiers) const {
+    const Grid<float, 2> clearance_m =
+        distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; });
+    const TravelCostField field(occupancy, clearance_m, filter_.belief().pose.position(), params_.travel);
+    std::vector<std::pair<double, Candidate>> found;
+    for (const Frontier<2>& frontier : frontiers) {
+      const auto viewpoint = find_viewpoint(occupancy, field, frontier.representative, params_.viewpoint_radius_m);
+      if (!viewpoint) continue;
+      Candidate candidate;
+      candidate.frontier_m = occupancy.lattice().center_m(frontier.representative);
+      candidate.sought = unknown_beside(occupancy, frontier);
+      candidate.path = Polyline(shorten_path(field, find_path(field, *viewpoint)));
+      found.emplace_back(static_cast<double>(field.cost_m(*viewpoint)), std::move(candidate));
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Candidate> candidates;
+    for (auto& [cost_m, candidate] : found) candidates.push_back(std::move(candidate));
+    return candidates;
+  }
+
+  [[nodiscard]] double utility(const Candidate& candidate) const {
+    return params_.ranking == Ranking::gain
+               ? candidate.gain_nats
+               : candidate.gain_nats / (candidate.path.length_m() + params_.travel_offset_m);
+  }
+
+  ExplorerParams params_;
+  MapType map_;
+  EntropyTable entropy_;
+  Filter filter_;
+  SetAsidePlaces set_aside_;
+  Decision decision_;
+  PathFollower follower_;
+  IndexBox<2> reached_;  // the cells that scans have reached
+  std::vector<GainWorkspace<Cell>> workspaces_;
+  std::optional<Eigen::Vector2d> failed_;
+  std::optional<Eigen::Vector2d> retreats_from_;  // where the robot stood when it began to retreat
+  bool must_decide_ = false;
+  double time_s_ = 0.0;
+  double unblocked_s_ = 0.0;  // when the guard last let the robot drive
+  bool has_observed_ = false;
+};
+
+}  // namespace incognita

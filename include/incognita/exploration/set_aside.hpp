@@ -1,0 +1,69 @@
+/// Places that an explorer has given up for as long as the map around them stays as it is.
+#pragma once
+
+#include <cstdlib>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "incognita/map/occupancy.hpp"
+
+namespace incognita {
+
+/// How many cells within `radius_m` of a point are known (cells outside of the box are not).
+[[nodiscard]] inline int count_known(const OccupancyGrid<2>& occupancy, const Eigen::Vector2d& center_m, double radius_m) {
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(radius_m);
+  const IndexBox<2> box = occupancy.lattice().cells_of({center_m - reach, center_m + reach});
+  int known = 0;
+  for (int y = box.lower.y(); y < box.upper.y(); ++y) {
+    for (int x = box.lower.x(); x < box.upper.x(); ++x) {
+      if (occupancy.value({x, y}) != Occupancy::unknown) ++known;
+    }
+  }
+  return known;
+}
+
+/// When two places are the same and when the map around one has changed.
+struct SetAsideParams {
+  double radius_m = 0.5;        ///< a place within this distance of one set aside is the same place
+  double watch_radius_m = 1.0;  ///< the surroundings that may change
+  int change_cells_min = 15;    ///< a change of the number of known cells there that counts as one
+
+  /// Throws std::invalid_argument for values outside of their bounds.
+  void validate() const {
+    require_positive("SetAsideParams", "radius_m", radius_m);
+    require_positive("SetAsideParams", "watch_radius_m", watch_radius_m);
+    require(change_cells_min >= 1, "SetAsideParams", "change_cells_min", change_cells_min, ">= 1");
+  }
+};
+
+/// A goal that could not be reached, or that told nothing new when it was, is not tried again until the map around it
+/// has changed.
+class SetAsidePlaces {
+ public:
+  explicit SetAsidePlaces(const SetAsideParams& params = {}) : params_(params) {}
+
+  void add(const Eigen::Vector2d& place_m, const OccupancyGrid<2>& occupancy) {
+    places_.push_back({place_m, count_known(occupancy, place_m, params_.watch_radius_m)});
+  }
+
+  [[nodiscard]] bool contains(const Eigen::Vector2d& place_m, const OccupancyGrid<2>& occupancy) const {
+    for (const Place& place : places_) {
+      if ((place.position_m - place_m).norm() > params_.radius_m) continue;
+      const int known = count_known(occupancy, place.position_m, params_.watch_radius_m);
+      if (std::abs(known - place.known_cells) < params_.change_cells_min) return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Place {
+    Eigen::Vector2d position_m;
+    int known_cells;
+  };
+
+  SetAsideParams params_;
+  std::vector<Place> places_;
+};
+
+}  // namespace incognita

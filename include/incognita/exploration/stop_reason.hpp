@@ -1,0 +1,28 @@
+/// Why an exploration ended.
+#pragma once
+
+#include <string_view>
+
+namespace incognita {
+
+enum class StopReason {
+  complete,             ///< no frontier is left
+  nothing_informative,  ///< frontiers are left, but going there would tell nothing new
+  nothing_reachable,    ///< frontiers are left, but the robot's body cannot get near any of them
+  lost,                 ///< the pose is more uncertain than the bound given
+  out_of_time
+};
+
+/// The name of the enumerator.
+[[nodiscard]] constexpr std::string_view to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::complete: return "complete";
+    case StopReason::nothing_informative: return "nothing_informative";
+    case StopReason::nothing_reachable: return "nothing_reachable";
+    case StopReason::lost: return "lost";
+    case StopReason::out_of_time: return "out_of_time";
+  }
+  return "unknown";
+}
+
+}  // namespace incognita

@@ -1,0 +1,7 @@
+/// sensor/: beams, scans and what one beam says of one cell. A reading of exactly the sensor's maximum range means that
+/// nothing was met; every other reading outside of the sensor's range is ignored and counted.
+#pragma once
+
+#include "incognita/sensor/dvl.hpp"
+#include "incognita/sensor/ray_cast.hpp"
+#include "incognita/sensor/scan.hpp"
