@@ -1,0 +1,163 @@
+// A simulated robot explores a floor plan and reports how well it went.
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "incognita/entropy/behavioral.hpp"
+#include "incognita/entropy/renyi.hpp"
+#include "incognita/entropy/shannon.hpp"
+#include "incognita/entropy/tsallis.hpp"
+#include "incognita/estimation/dead_reckoning.hpp"
+#include "incognita/io/floor_plan.hpp"
+#include "incognita/io/kth_xml.hpp"
+#include "incognita/map/cells/log_odds.hpp"
+#include "incognita/simulation/start.hpp"
+#include "kth_explorer/embedded_floor_plan.hpp"
+#include "kth_explorer/mission.hpp"
+#include "kth_explorer/options.hpp"
+#include "kth_explorer/results.hpp"
+#include "support/output_folder.hpp"
+
+namespace kth_explorer {
+namespace {
+
+using Measure = std::function<double(double)>;
+
+Measure make_measure(const Options& options) {
+  if (options.entropy == "shannon") return incognita::Shannon{};
+  if (options.entropy == "renyi") return incognita::Renyi{options.alpha};
+  if (options.entropy == "tsallis") return incognita::Tsallis{options.alpha};
+  return [behavioral = incognita::Behavioral{options.alpha}](double p) { return behavioral(p); };
+}
+
+incognita::World load_world(const Options& options) {
+  return incognita::World(options.map_file.empty()
+                              ? incognita::read_kth_xml_text(examples::embedded_floor_plan_xml, "embedded floor plan")
+                              : incognita::read_floor_plan(options.map_file));
+}
+
+incognita::Pose2 start_pose(const Options& options, const incognita::World& world, double radius_m) {
+  incognita::Random random(options.seed);
+  if (!options.start_m) return random_start(world, radius_m, random);
+  check_start(world, *options.start_m, radius_m);
+  return {options.start_m->x(), options.start_m->y(), random.uniform(-std::numbers::pi, std::numbers::pi)};
+}
+
+/// A bar that is drawn over on a terminal, a line every simulated minute elsewhere.
+void print_progress(const ProgressRecord& progress, double duration_s) {
+  const bool terminal = isatty(STDOUT_FILENO) == 1;
+  const bool last = progress.time_s >= duration_s;
+  if (!terminal && std::fmod(progress.time_s, 60.0) > 1e-6 && !last) return;
+  char line[128];
+  std::snprintf(line, sizeof line, "%5.0f s  explored %5.1f %%  position error %.3f m (3 sigma %.3f)  driven %.0f m",
+                progress.time_s, 100.0 * progress.explored_fraction, progress.position_error_m, progress.three_sigma_m,
+                progress.distance_m);
+  if (!terminal) {
+    std::cout << line << std::endl;
+    return;
+  }
+  constexpr int width = 24;
+  const int filled = static_cast<int>(width * progress.explored_fraction);
+  std::cout << "\r[" << std::string(static_cast<std::size_t>(filled), '#')
+            << std::string(static_cast<std::size_t>(width - filled), '.') << "] " << line << std::flush;
+}
+
+void print_table(const nlohmann::ordered_json& metrics, const std::filesystem::path& folder) {
+  if (isatty(STDOUT_FILENO) == 1) std::cout << '\n';
+  for (const char* key : {"stop_reason", "duration_s", "explored_fraction", "explored_area_m2", "distance_m", "collisions",
+                          "decisions", "translation_rmse_m", "heading_rmse_rad", "nees_mean", "map_error",
+                          "wall_time_s", "real_time_factor"}) {
+    const auto& value = metrics.at(key);
+    char text[48];
+    if (value.is_number_float()) {
+      std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+    } else {
+      std::snprintf(text, sizeof text, "%s", value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
+    }
+    std::printf("  %-20s %s\n", key, text);
+  }
+  std::printf("Results are in %s\n", folder.string().c_str());
+}
+
+template <class Cell, class Filter>
+void explore(const Options& options, incognita::Simulator& simulator, const incognita::RobotParams& robot,
+             double range_max_m, examples::OutputFolder& output) {
+  using namespace incognita;
+  ExplorerParams params;
+  params.travel.robot_radius_m = robot.radius_m;
+  params.guard.robot_radius_m = robot.radius_m;
+  params.gain.range_max_m = range_max_m;
+  params.ranking = options.ranking == "gain" ? Ranking::gain : Ranking::gain_per_metre;
+  params.threads = options.threads;
+  MapParams map_params;
+  map_params.resolution_m = options.resolution_m;
+  Explorer<Map<Cell>, Measure, Filter> explorer(params, Map<Cell>(map_params), make_measure(options));
+
+  std::function<void(const ProgressRecord&)> report;
+  if (!options.quiet) report = [&](const ProgressRecord& p) { print_progress(p, options.duration_s); };
+  const Pose2 T_world_start = simulator.T_start_world().inverse();
+  const MissionRecord record = run_mission(explorer, simulator, robot.radius_m, range_max_m, options.duration_s, report);
+
+  const nlohmann::ordered_json metrics = metrics_json(record, options);
+  write_file_atomically(output.staged("metrics.json"), metrics.dump(2) + "\n");
+  write_file_atomically(output.staged("decisions.csv"), decisions_csv(record));
+  write_file_atomically(output.staged("progress.csv"), progress_csv(record));
+  write_tum(output.staged("trajectory_estimated.tum"), record.estimated);
+  write_tum(output.staged("trajectory_true.tum"), record.truth);
+  write_map(output.staged("map.yaml"), explorer.map(), explorer.params().thresholds);
+  draw_overview(output.staged("overview.png"), explorer.map(), simulator.world().plan(), T_world_start, record);
+  output.publish();
+  if (!options.quiet) print_table(metrics, output.path());
+}
+
+void run(const Options& options) {
+  using namespace incognita;
+  SimulatorParams params;
+  World world = load_world(options);
+  const Pose2 T_world_start = start_pose(options, world, params.robot.radius_m);
+  examples::OutputFolder output(options.output);
+  Simulator simulator(std::move(world), T_world_start, params, options.seed);
+  const double range_max_m = simulator.scan().range_max_m();
+  const bool coupled = options.filter == "dvl-ekf";
+  if (options.cells == "tbayes") {
+    coupled ? explore<TBayes, DvlEkf>(options, simulator, params.robot, range_max_m, output)
+            : explore<TBayes, DeadReckoning>(options, simulator, params.robot, range_max_m, output);
+  } else {
+    coupled ? explore<LogOdds, DvlEkf>(options, simulator, params.robot, range_max_m, output)
+            : explore<LogOdds, DeadReckoning>(options, simulator, params.robot, range_max_m, output);
+  }
+}
+
+}  // namespace
+}  // namespace kth_explorer
+
+int main(int argc, char** argv) {
+  const auto refuse = [](const std::exception& error) {
+    std::cerr << "kth_explorer: " << error.what() << '\n';
+    return 2;
+  };
+  CLI::App app("A simulated robot explores a floor plan: it maps, localises, and decides where to go by the information\n"
+               "it expects. Writes metrics.json, map.yaml and map.png, both trajectories, decisions.csv, progress.csv\n"
+               "and overview.png.");
+  try {
+    kth_explorer::run(kth_explorer::parse_options(app, argc, argv));
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? app.exit(error) : refuse(error);
+  } catch (const incognita::InputError& error) {
+    return refuse(error);
+  } catch (const std::invalid_argument& error) {
+    return refuse(error);
+  } catch (const examples::OutputError& error) {
+    return refuse(error);
+  } catch (const std::exception& error) {
+    std::cerr << "kth_explorer: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,166 @@
+/// One exploration in simulation, recorded step by step.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "incognita/exploration/explorer.hpp"
+#include "incognita/entropy/shannon.hpp"
+#include "incognita/io/tum.hpp"
+#include "incognita/metrics/coverage.hpp"
+#include "incognita/metrics/map_error.hpp"
+#include "incognita/metrics/nees.hpp"
+#include "incognita/metrics/trajectory_error.hpp"
+#include "incognita/metrics/truth.hpp"
+#include "incognita/metrics/visible_floor.hpp"
+#include "incognita/simulation/simulator.hpp"
+
+namespace kth_explorer {
+
+using Clock = std::chrono::steady_clock;
+
+[[nodiscard]] inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct DecisionRecord {
+  double time_s;
+  std::size_t candidates;
+  Eigen::Vector2d goal_m;  ///< in the robot's start frame
+  double gain_nats;
+  double runner_up_gain_nats;  ///< NaN when there was one candidate
+  double evaluation_time_s;
+};
+
+struct ProgressRecord {
+  double time_s;
+  double explored_fraction;
+  double entropy_drop_nats;  ///< Shannon entropy of the map at the start minus now
+  double position_error_m;
+  double three_sigma_m;
+  double nees;
+  double distance_m;
+};
+
+/// All that a mission leaves, in the robot's start frame.
+struct MissionRecord {
+  std::vector<incognita::TimedPose2> estimated;
+  std::vector<incognita::TimedPose2> truth;
+  std::vector<DecisionRecord> decisions;
+  std::vector<ProgressRecord> progress;
+  std::vector<std::vector<Eigen::Vector2d>> last_frontiers;
+  incognita::TrajectoryError trajectory_error;
+  incognita::MeanNees nees;
+  incognita::StopReason stop_reason = incognita::StopReason::out_of_time;
+  std::size_t scans = 0;
+  std::size_t collisions = 0;
+  std::size_t touched_cells = 0;
+  double distance_m = 0.0;
+  double duration_s = 0.0;
+  double map_error = 0.0;
+  double map_uncertainty_bits_per_step = 0.0;
+  double explored_fraction = 0.0;
+  double floor_area_m2 = 0.0;
+  double wall_time_s = 0.0;
+};
+
+/// Drives `explorer` in `simulator` until it stops or duration_s is over. `report` is called once a simulated second.
+template <class Explorer>
+[[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, double robot_radius_m,
+                                        double range_max_m, double duration_s,
+                                        const std::function<void(const ProgressRecord&)>& report) {
+  using namespace incognita;
+  const Clock::time_point begin = Clock::now();
+  const Pose2& T_start_world = simulator.T_start_world();
+  const Coverage coverage(visible_floor(simulator.world(), simulator.T_world_robot().position(), robot_radius_m, range_max_m),
+                          T_start_world, explorer.map().lattice());
+  const EntropyTable shannon{Shannon{}};
+  const auto is_known = [&](const Index<2>& cell) {
+    return explorer.params().thresholds.classify(explorer.map().log_odds(cell)) != Occupancy::unknown;
+  };
+  const auto entropy_drop_nats = [&] {
+    double drop_nats = 0.0;
+    for (Offset cell = 0; cell < static_cast<Offset>(explorer.map().grid().size()); ++cell) {
+      drop_nats += shannon(0.0F) - shannon(explorer.map().log_odds(cell));
+    }
+    return drop_nats;
+  };
+
+  MissionRecord record;
+  const auto progress = [&] {
+    const PoseBelief& belief = explorer.belief();
+    const Pose2 truth = simulator.T_start_robot();
+    return ProgressRecord{simulator.time_s(),
+                          coverage.explored_fraction(is_known),
+                          entropy_drop_nats(),
+                          (belief.pose.position() - truth.position()).norm(),
+                          3.0 * position_sigma_m(belief.covariance),
+                          position_nees(belief.pose, truth, belief.covariance),
+                          simulator.distance_m()};
+  };
+  const auto observe_and_decide = [&] {
+    explorer.observe(simulator.scan());
+    ++record.scans;
+    const Clock::time_point start = Clock::now();
+    if (!explorer.decide()) return;
+    if (const Candidate* chosen = explorer.decision().chosen()) {
+      const auto& candidates = explorer.decision().candidates;
+      record.decisions.push_back({simulator.time_s(), candidates.size(), chosen->goal_m(), chosen->gain_nats,
+                                  candidates.size() > 1 ? candidates[1].gain_nats
+                                                        : std::numeric_limits<double>::quiet_NaN(),
+                                  seconds_since(start)});
+    }
+  };
+  const auto remember = [&] {
+    const Pose2 truth = simulator.T_start_robot();
+    record.trajectory_error.add(explorer.belief().pose, truth);
+    record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
+    if (!simulator.scan_is_new()) return;
+    record.estimated.push_back({simulator.time_s(), explorer.belief().pose});
+    record.truth.push_back({simulator.time_s(), truth});
+  };
+
+  // Steps are counted, so that the end does not depend on how a time is rounded.
+  constexpr double step_s = 0.02;
+  const auto steps_max = static_cast<std::size_t>(std::ceil(duration_s / step_s - 1e-9));
+  observe_and_decide();
+  Twist2 command = explorer.command(simulator.scan());
+  while (!explorer.stopped() && simulator.steps() < steps_max) {
+    explorer.move(simulator.step(command), step_s);
+    if (simulator.scan_is_new()) {
+      observe_and_decide();
+      command = explorer.command(simulator.scan());
+    }
+    remember();
+    if (simulator.steps() % 50 == 0) {
+      record.progress.push_back(progress());
+      if (report) report(record.progress.back());
+    }
+  }
+
+  const ProgressRecord last = progress();
+  if (record.progress.empty() || record.progress.back().time_s < last.time_s) record.progress.push_back(last);
+  record.stop_reason = explorer.stopped().value_or(StopReason::out_of_time);
+  record.collisions = simulator.collisions();
+  record.distance_m = simulator.distance_m();
+  record.duration_s = simulator.time_s();
+  record.explored_fraction = last.explored_fraction;
+  record.floor_area_m2 = coverage.floor_area_m2();
+  record.map_uncertainty_bits_per_step = map_uncertainty_bits_per_step(last.entropy_drop_nats, 0.0, simulator.steps());
+  const MapError error = map_error(
+      explorer.map(), truly_occupied_cells(simulator.world().plan(), T_start_world, explorer.map().lattice()));
+  record.map_error = error.value();
+  record.touched_cells = error.occupied_count() + error.free_count();
+  const OccupancyGrid<2> occupancy = classify(explorer.map(), explorer.params().thresholds);
+  for (const Frontier<2>& frontier : find_frontiers(occupancy, explorer.params().frontier)) {
+    std::vector<Eigen::Vector2d>& cells_m = record.last_frontiers.emplace_back();
+    for (const Index<2>& cell : frontier.cells) cells_m.push_back(occupancy.lattice().center_m(cell));
+  }
+  record.wall_time_s = seconds_since(begin);
+  return record;
+}
+
+}  // namespace kth_explorer

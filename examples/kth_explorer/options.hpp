@@ -1,0 +1,102 @@
+/// The command line of kth_explorer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Core>
+
+namespace kth_explorer {
+
+struct Options {
+  std::string map_file;  ///< empty: the embedded floor plan
+  std::string cells = "tbayes";
+  std::string entropy = "behavioral";
+  double alpha = 1.0;
+  std::string filter = "dvl-ekf";
+  std::string ranking = "gain-per-metre";
+  double duration_s = 1800.0;
+  std::uint64_t seed = 1;
+  std::optional<Eigen::Vector2d> start_m;  ///< in the map file's frame
+  double resolution_m = 0.1;
+  int threads = 0;
+  std::string output = "output/kth_explorer";
+  bool quiet = false;
+};
+
+/// A point written as X,Y. Throws CLI::ValidationError.
+[[nodiscard]] inline Eigen::Vector2d parse_point(const std::string& text) {
+  const auto number = [&](const std::string& part) {
+    std::size_t used = 0;
+    double value = 0.0;
+    try {
+      value = std::stod(part, &used);
+    } catch (const std::logic_error&) {
+      used = 0;
+    }
+    if (used == 0 || used != part.size() || !std::isfinite(value)) {
+      throw CLI::ValidationError("--start: \"" + text + "\" is not of the form X,Y with finite numbers in metres");
+    }
+    return value;
+  };
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) number("");
+  return {number(text.substr(0, comma)), number(text.substr(comma + 1))};
+}
+
+/// Throws CLI::ParseError; one whose exit code is 0 asks for the help text.
+[[nodiscard]] inline Options parse_options(CLI::App& app, int argc, char** argv) {
+  Options options;
+  std::string start;
+  app.add_option("--map", options.map_file, "floor plan; without it, the embedded office floor of 55 x 25 m")
+      ->type_name("FILE.yaml|FILE.xml");
+  app.add_option("--cells", options.cells, "how a cell of the belief is updated")
+      ->check(CLI::IsMember({"tbayes", "log-odds"}))
+      ->capture_default_str();
+  app.add_option("--entropy", options.entropy, "what uncertainty is measured by")
+      ->check(CLI::IsMember({"behavioral", "shannon", "renyi", "tsallis"}))
+      ->capture_default_str();
+  app.add_option("--alpha", options.alpha, "parameter of the entropy (q of tsallis; shannon has none), > 0")
+      ->type_name("A")
+      ->capture_default_str();
+  app.add_option("--filter", options.filter, "how the pose is estimated")
+      ->check(CLI::IsMember({"dvl-ekf", "dead-reckoning"}))
+      ->capture_default_str();
+  app.add_option("--ranking", options.ranking, "candidates by information gain alone (as the paper) or by metre of path")
+      ->check(CLI::IsMember({"gain", "gain-per-metre"}))
+      ->capture_default_str();
+  app.add_option("--duration", options.duration_s, "longest mission, in simulated seconds, > 0")
+      ->type_name("S")
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "of the noise and of the start")->type_name("N")->capture_default_str();
+  app.add_option("--start", start, "start in the map file's frame, in metres; without it, a seeded place in the largest region")
+      ->type_name("X,Y");
+  app.add_option("--resolution", options.resolution_m, "side of a cell of the belief, in metres, 0.02 to 1")
+      ->type_name("M")
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads for the evaluation of candidates; 0: as many as OpenMP takes")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--output", options.output, "folder for the results")->type_name("DIR")->capture_default_str();
+  app.add_flag("--quiet", options.quiet, "print nothing but errors");
+  app.parse(argc, argv);
+
+  const auto require = [](bool holds, const std::string& what) {
+    if (!holds) throw CLI::ValidationError(what);
+  };
+  const auto shown = [](double value) { return CLI::detail::to_string(value); };
+  require(std::isfinite(options.alpha) && options.alpha > 0.0,
+          "--alpha: " + shown(options.alpha) + " is not finite and > 0");
+  require(std::isfinite(options.duration_s) && options.duration_s > 0.0 && options.duration_s <= 1e7,
+          "--duration: " + shown(options.duration_s) + " s is not in (0, 1e7]");
+  require(options.resolution_m >= 0.02 && options.resolution_m <= 1.0,
+          "--resolution: " + shown(options.resolution_m) + " m is not in 0.02..1");
+  if (!start.empty()) options.start_m = parse_point(start);
+  return options;
+}
+
+}  // namespace kth_explorer

@@ -1,0 +1,162 @@
+/// The files that a mission leaves.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "incognita/io/atomic_file.hpp"
+#include "incognita/io/map_server.hpp"
+#include "incognita/io/tum.hpp"
+#include "kth_explorer/mission.hpp"
+#include "kth_explorer/options.hpp"
+#include "support/drawing.hpp"
+
+namespace kth_explorer {
+
+/// Values separated by commas, to six digits; NaN is left empty.
+class CsvText {
+ public:
+  explicit CsvText(const char* header) : text_(std::string(header) + '\n') {}
+
+  void row(std::initializer_list<double> values) {
+    const char* separator = "";
+    for (const double value : values) {
+      char number[32] = "";
+      if (!std::isnan(value)) std::snprintf(number, sizeof number, "%.6g", value);
+      text_ += separator;
+      text_ += number;
+      separator = ",";
+    }
+    text_ += '\n';
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+[[nodiscard]] inline std::string decisions_csv(const MissionRecord& record) {
+  CsvText csv("time_s,candidates,goal_x_m,goal_y_m,big_nats,runner_up_big_nats,evaluation_time_s");
+  for (const DecisionRecord& d : record.decisions) {
+    csv.row({d.time_s, static_cast<double>(d.candidates), d.goal_m.x(), d.goal_m.y(), d.gain_nats,
+             d.runner_up_gain_nats, d.evaluation_time_s});
+  }
+  return csv.text();
+}
+
+/// The entropy counts the cells that the map touches in the end, so that it only falls.
+[[nodiscard]] inline std::string progress_csv(const MissionRecord& record) {
+  CsvText csv("time_s,explored_fraction,map_entropy_bits,position_error_m,three_sigma_m,nees,distance_m");
+  const double start_bits = static_cast<double>(record.touched_cells);
+  for (const ProgressRecord& p : record.progress) {
+    csv.row({p.time_s, p.explored_fraction, start_bits - p.entropy_drop_nats / std::numbers::ln2, p.position_error_m,
+             p.three_sigma_m, p.nees, p.distance_m});
+  }
+  return csv.text();
+}
+
+[[nodiscard]] inline nlohmann::ordered_json metrics_json(const MissionRecord& record, const Options& options) {
+  nlohmann::ordered_json json;
+  json["map"] = options.map_file.empty() ? "embedded" : std::filesystem::path(options.map_file).filename().string();
+  json["seed"] = options.seed;
+  json["cells"] = options.cells;
+  json["entropy"] = options.entropy;
+  json["alpha"] = options.entropy == "shannon" ? nlohmann::ordered_json() : nlohmann::ordered_json(options.alpha);
+  json["filter"] = options.filter;
+  json["ranking"] = options.ranking;
+  json["resolution_m"] = options.resolution_m;
+  json["duration_s"] = record.duration_s;
+  json["scans"] = record.scans;
+  json["distance_m"] = record.distance_m;
+  json["collisions"] = record.collisions;
+  json["decisions"] = record.decisions.size();
+  json["stop_reason"] = std::string(to_string(record.stop_reason));
+  json["translation_rmse_m"] = record.trajectory_error.translation_rmse_m();
+  json["translation_mae_m"] = record.trajectory_error.translation_mae_m();
+  json["heading_rmse_rad"] = record.trajectory_error.heading_rmse_rad();
+  json["nees_mean"] = record.nees.position();
+  json["map_error"] = record.map_error;
+  json["map_uncertainty_bits_per_step"] = record.map_uncertainty_bits_per_step;
+  json["explored_fraction"] = record.explored_fraction;
+  json["explored_area_m2"] = record.explored_fraction * record.floor_area_m2;
+  json["wall_time_s"] = record.wall_time_s;
+  json["real_time_factor"] = record.duration_s / record.wall_time_s;
+  json["threads"] = incognita::worker_count(options.threads);
+  return json;
+}
+
+/// The belief under the true walls, with both trajectories, in the plan's own frame.
+template <class Map>
+void draw_overview(const std::filesystem::path& file, const Map& map, const incognita::FloorPlan& plan,
+                   const incognita::Pose2& T_world_start, const MissionRecord& record) {
+  using incognita::FloorCell;
+  using examples::Color;
+  constexpr Color wall{0.85, 0.25, 0.1, 0.55};
+  constexpr Color true_path{0.1, 0.55, 0.2};
+  constexpr Color estimated_path{0.1, 0.3, 0.85};
+  constexpr Color start{0.75, 0.1, 0.6};
+  constexpr Color frontier{1.0, 0.6, 0.0};
+
+  const auto& box = plan.box();
+  const double resolution_m = plan.resolution_m();
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.5);
+  const Eigen::Vector2d origin = plan.lattice().origin_m();
+  examples::Drawing drawing({origin + box.lower.template cast<double>() * resolution_m - margin,
+                             origin + box.upper.template cast<double>() * resolution_m + margin});
+  drawing.raster(map.grid(), T_world_start, [&](const typename Map::State& state) {
+    const double free = 1.0 - incognita::probability_of_log_odds(static_cast<double>(Map::CellType::log_odds(state)));
+    // Unknown is a bluish grey, so that it is told from what is half known.
+    if (Map::CellType::log_odds(state) == 0.0F) return Color{0.78, 0.81, 0.85};
+    return Color{free, free, free};
+  });
+  drawing.raster(plan, incognita::Pose2{}, [&](FloorCell cell) { return cell == FloorCell::wall ? wall : examples::transparent; });
+
+  const auto in_world = [&](const std::vector<incognita::TimedPose2>& trajectory) {
+    std::vector<Eigen::Vector2d> points_m;
+    for (const auto& timed : trajectory) points_m.push_back(T_world_start * timed.pose.position());
+    return points_m;
+  };
+  drawing.polyline(in_world(record.truth), true_path, 4.0);
+  drawing.polyline(in_world(record.estimated), estimated_path, 1.5);
+  for (const auto& cells_m : record.last_frontiers) {
+    for (const Eigen::Vector2d& cell_m : cells_m) drawing.disc(T_world_start * cell_m, map.resolution_m(), frontier);
+  }
+  drawing.marker(T_world_start.position(), start);
+  drawing.text(T_world_start.position(), "start", start);
+  using examples::Swatch;
+  drawing.legend({{"believed occupied", {0.0, 0.0, 0.0}, Swatch::area},
+                  {"free", {1.0, 1.0, 1.0}, Swatch::area},
+                  {"never seen", {0.78, 0.81, 0.85}, Swatch::area},
+                  {"true wall", wall, Swatch::area},
+                  {"true path", true_path, Swatch::line},
+                  {"estimated path", estimated_path, Swatch::line},
+                  {"last frontiers", frontier, Swatch::dot}});
+  drawing.write_png(file);
+}
+
+/// The map as map_server takes it: free, occupied and unknown by the explorer's thresholds, cut to what was touched.
+template <class Map>
+void write_map(const std::filesystem::path& yaml_file, const Map& map, const incognita::OccupancyThresholds& thresholds) {
+  using incognita::Index;
+  incognita::IndexBox<2> touched;
+  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(map.grid().size()); ++cell) {
+    if (map.log_odds(cell) == 0.0F) continue;
+    const Index<2> index = map.grid().index_at(cell);
+    touched = enclosing_box(touched, {index, (index.array() + 1).matrix()});
+  }
+  incognita::ProbabilityGrid grid(map.lattice(), touched, incognita::unknown_probability);
+  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(grid.size()); ++cell) {
+    const incognita::Occupancy occupancy = thresholds.classify(map.log_odds(grid.index_at(cell)));
+    if (occupancy != incognita::Occupancy::unknown) grid[cell] = occupancy == incognita::Occupancy::occupied ? 1.0F : 0.0F;
+  }
+  write_map_server(yaml_file, grid);
+}
+
+}  // namespace kth_explorer
