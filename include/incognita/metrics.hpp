@@ -1,13 +1,11 @@
 /// The door of metrics/: what a mission was worth, in figures.
 ///
-/// | leaf                         | holds |
-/// |------------------------------|---------------------------------------------------------------------------|
-/// | metrics/trajectory_error.hpp | RMSE and MAE of a trajectory, and its rigid alignment | |
-/// metrics/nees.hpp             | normalised estimation error squared                                       |
-/// | metrics/map_error.hpp        | map error and map uncertainty of Seo et al., section VI-A | |
-/// metrics/truth.hpp            | the cells of a belief that are truly occupied                             |
-/// | metrics/visible_floor.hpp    | the floor that can be seen from where a disc can go | |
-/// metrics/coverage.hpp         | the share of that floor which a belief knows                              |
+/// - metrics/trajectory_error.hpp: RMSE and MAE of a trajectory, and its rigid alignment
+/// - metrics/nees.hpp: normalised estimation error squared
+/// - metrics/map_error.hpp: map error and map uncertainty of Seo et al., section VI-A
+/// - metrics/truth.hpp: the cells of a belief that are truly occupied
+/// - metrics/visible_floor.hpp: the floor that can be seen from where a disc can go
+/// - metrics/coverage.hpp: the share of that floor which a belief knows
 ///
 /// Estimates and truth are compared in one frame: a simulated robot starts at the identity of its own frame,
 /// so T_belief_world is the inverse of the true start pose. Accumulators are plain values; sums run in the

@@ -1,14 +1,12 @@
 /// The door of simulation/: a robot in a floor plan, for examples, tests and experiments.
 ///
-/// | leaf                        | holds |
-/// |-----------------------------|----------------------------------------------------------------------------|
-/// | simulation/world.hpp        | a floor plan with exact ranges and collisions | | simulation/start.hpp |
-/// start poses, drawn or checked                                              | | simulation/unicycle.hpp |
-/// the arc that a twist drives                                                | | simulation/robot.hpp | a
-/// disc that drives and collides                                            | | simulation/odometry.hpp     |
-/// noisy odometry                                                             | | simulation/range_sensor.hpp
-/// | a noisy range sensor                                                       | | simulation/simulator.hpp
-/// | all of it, step by step                                                    |
+/// - simulation/world.hpp: a floor plan with exact ranges and collisions
+/// - simulation/start.hpp: start poses, drawn or checked
+/// - simulation/unicycle.hpp: the arc that a twist drives
+/// - simulation/robot.hpp: a disc that drives and collides
+/// - simulation/odometry.hpp: noisy odometry
+/// - simulation/range_sensor.hpp: a noisy range sensor
+/// - simulation/simulator.hpp: all of it, step by step
 ///
 ///     incognita::Random random(1);
 ///     incognita::World world(plan);

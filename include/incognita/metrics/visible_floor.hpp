@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -18,45 +20,38 @@
 namespace incognita {
 
 /// The cells on whose centre a disc can stand after driving there from `start_m`: those on whose centre it is
-/// clear, joined by their faces, from the ones next to the start (3 x 3 cells) that it reaches in a straight
+/// clear, joined by their faces, from the nearest to the start (of 3 x 3 cells) that it reaches in a straight
 /// line. 1 for them, 0 elsewhere. Throws std::invalid_argument for a negative radius, when the disc is not
 /// clear at the start, or when it can reach no centre from there. O(cells).
 [[nodiscard]] inline Grid<std::uint8_t, 2> reachable_positions(const ObstacleField& obstacles,
                                                                const Point<2>& start_m, double radius_m) {
   require_non_negative("reachable_positions", "radius_m", radius_m);
-  const double clearance_m = obstacles.clearance_m(start_m);
   require(obstacles.disc_is_clear(start_m, radius_m), "reachable_positions",
-          "the clearance in m at the start", clearance_m, "at least the radius of the disc");
+          "the clearance in m at the start", obstacles.clearance_m(start_m),
+          "at least the radius of the disc");
 
-  const auto is_set = [](std::uint8_t value) { return value != 0; };
-  Grid<std::uint8_t, 2> positions = disc_positions(obstacles, radius_m);
-  const Components<2> regions = connected_components(positions, Adjacency::faces, is_set);
-  std::vector<std::uint8_t> is_reached(regions.sizes.size(), 0);
-  bool any = false;
   const Index<2> first = obstacles.lattice().index_of(start_m).array() - 1;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  Index<2> nearest;
   for (int i = 0; i < 9; ++i) {
     const Index<2> cell = first + Index<2>(i % 3, i / 3);
-    const std::int32_t region = regions.labels.value(cell);
-    if (region == Components<2>::none) continue;
     const Point<2> way_m = obstacles.lattice().center_m(cell) - start_m;
     const double length_m = way_m.norm();
     const auto position_at = [&](double s_m) -> Point<2> {
-      return start_m + way_m * (length_m > 0.0 ? s_m / length_m : 0.0);
+      return s_m < length_m ? Point<2>(start_m + way_m * (s_m / length_m))
+                            : obstacles.lattice().center_m(cell);
     };
+    if (length_m >= nearest_m || !obstacles.disc_is_clear(position_at(length_m), radius_m)) continue;
     if (clear_length_m(obstacles, radius_m, length_m, position_at) < length_m) continue;
-    is_reached[static_cast<std::size_t>(region)] = 1;
-    any = true;
+    nearest_m = length_m;
+    nearest = cell;
   }
-  if (!any)
+  if (!std::isfinite(nearest_m)) {
     throw std::invalid_argument(
         "reachable_positions: the disc can reach the centre of no cell from the start");
-
-  for (Offset cell = 0; cell < static_cast<Offset>(positions.size()); ++cell) {
-    const std::int32_t region = regions.labels[cell];
-    positions[cell] =
-        region == Components<2>::none ? std::uint8_t{0} : is_reached[static_cast<std::size_t>(region)];
   }
-  return positions;
+  return flood_fill(disc_positions(obstacles, radius_m), nearest, Adjacency::faces,
+                    [](std::uint8_t is_clear) { return is_clear != 0; });
 }
 
 namespace detail {

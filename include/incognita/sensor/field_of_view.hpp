@@ -112,9 +112,8 @@ class FieldOfView {
         for (int column = first; column <= std::min(last, row + 1); ++column) {
           const Index<2> cell = from + row * ahead + column * across;
           if (blocked(cell)) {
-            // Seen from a cell straight ahead, both near corners are the outermost; otherwise the low far
-            // corner is.
-            const Slope shadow_low{2 * column - 1, column == 0 ? 2 * row - 1 : 2 * row + 1};
+            // The corners that look outermost. (Straight ahead the low one lies below the octant anyway.)
+            const Slope shadow_low{2 * column - 1, 2 * row + 1};
             const Slope shadow_high{2 * column + 1, 2 * row - 1};
             if (low < shadow_low) next_lit_.push_back({low, std::min(shadow_low, sector.high)});
             if (low < shadow_high) low = shadow_high;
