@@ -28,15 +28,15 @@ void traverse(const Lattice<Dim>& lattice, const Point<Dim>& from_m, const Point
   std::array<double, static_cast<std::size_t>(Dim)> period;
   std::array<double, static_cast<std::size_t>(Dim)> next;
   std::array<int, static_cast<std::size_t>(Dim)> step;
-  std::array<int, static_cast<std::size_t>(Dim)> crossed{};
-  std::array<int, static_cast<std::size_t>(Dim)> crossings;
+  std::array<double, static_cast<std::size_t>(Dim)> crossed{};
+  std::array<double, static_cast<std::size_t>(Dim)> crossings;
   int steps = 0;
   for (int a = 0; a < Dim; ++a) {
     const auto axis = static_cast<std::size_t>(a);
     const double delta = to[a] - from[a];
     step[axis] = last[a] > index[a] ? 1 : -1;
     crossings[axis] = std::abs(last[a] - index[a]);
-    steps += crossings[axis];
+    steps += std::abs(last[a] - index[a]);
     const double boundary = index[a] + (step[axis] > 0 ? 1.0 : 0.0);
     first[axis] = (boundary - from[a]) / delta;
     period[axis] = 1.0 / std::abs(delta);
@@ -50,14 +50,18 @@ void traverse(const Lattice<Dim>& lattice, const Point<Dim>& from_m, const Point
       visit(index);
     }
     if (taken == steps) return;
-    std::size_t axis = 0;
-    for (std::size_t other = 1; other < static_cast<std::size_t>(Dim); ++other) {
-      if (next[other] < next[axis]) axis = other;
+    std::size_t chosen = 0;
+    for (std::size_t axis = 1; axis < static_cast<std::size_t>(Dim); ++axis) {
+      if (next[axis] < next[chosen]) chosen = axis;
     }
-    index[static_cast<int>(axis)] += step[axis];
-    ++crossed[axis];
-    // An axis that has reached its last cell never steps again, whatever the rounding.
-    next[axis] = crossed[axis] < crossings[axis] ? first[axis] + crossed[axis] * period[axis] : never;
+    // All axes are computed anew, so that nothing is addressed by the axis chosen and all stays in registers. An axis
+    // that has reached its last cell never steps again, whatever the rounding.
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(Dim); ++axis) {
+      const bool steps_here = axis == chosen;
+      index[static_cast<int>(axis)] += steps_here ? step[axis] : 0;
+      crossed[axis] += steps_here ? 1.0 : 0.0;
+      next[axis] = crossed[axis] < crossings[axis] ? first[axis] + crossed[axis] * period[axis] : never;
+    }
   }
 }
 

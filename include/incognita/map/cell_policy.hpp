@@ -16,7 +16,8 @@ using ScanStamp = std::uint16_t;
 ///
 /// Laws, checked by check_cell_policy_laws: State{} has log-odds exactly 0 (unknown); a hit of an unknown cell at an
 /// exact pose, with residual 0, raises it, and a pass far before the surface lowers it; log-odds stay finite under any
-/// sequence of hits and passes; equal sequences give equal states; forget_stamp leaves the log-odds as they are and
+/// sequence of hits and passes; a pass leaves a state for which ignores_passes holds as it is, to the bit (most of what a
+/// scan meets is free and known to be, so maps ask before they touch a cell); equal sequences give equal states; forget_stamp leaves the log-odds as they are and
 /// makes every stamp new.
 /// A map hands a scan over in two rounds, first its hits, then its passes, so a policy may let hits win.
 /// hit and pass are O(1) and noexcept in spirit: they are the hot path. A const policy is safe to share among threads.
@@ -29,6 +30,7 @@ concept CellPolicy =
       { policy.beam(variance_m2) } -> std::same_as<typename P::Beam>;
       { policy.hit(state, beam, residual_m, stamp) } -> std::same_as<void>;
       { policy.pass(state, beam, residual_m, stamp) } -> std::same_as<void>;
+      { policy.ignores_passes(seen) } -> std::same_as<bool>;
       { policy.forget_stamp(state) } -> std::same_as<void>;
       { P::log_odds(seen) } -> std::same_as<float>;
     };

@@ -87,6 +87,7 @@ class Map {
  private:
   struct Writer {
     Grid<State, Dim>& grid;
+    const State& seen(const Index<Dim>& index) const { return grid[grid.offset_of(index)]; }
     State& state(const Index<Dim>& index) { return grid[grid.offset_of(index)]; }
   };
 

@@ -40,8 +40,13 @@ class Overlay {
   /// The predicted log-odds of a cell; 0 outside of the map's box.
   [[nodiscard]] float log_odds(const Index<Dim>& index) const {
     if (!map_->grid().contains(index)) return 0.0F;
+    return Cell::log_odds(seen(index));
+  }
+
+  /// The predicted state of a cell, to look at. The index must lie in the map's box.
+  [[nodiscard]] const State& seen(const Index<Dim>& index) const {
     const Offset offset = map_->grid().offset_of(index);
-    return Cell::log_odds(is_changed(offset) ? states_[static_cast<std::size_t>(offset)] : map_->grid()[offset]);
+    return is_changed(offset) ? states_[static_cast<std::size_t>(offset)] : map_->grid()[offset];
   }
 
   /// The state to change, as integrate_scan asks for it. The index must lie in the map's box.

@@ -17,7 +17,7 @@ struct ScanReport {
   std::size_t beams_ignored = 0;  ///< NaN, infinite, negative or out of range
 };
 
-/// Cells that a scan can be written to: `cells.state(index)` is the state to change.
+/// Cells that a scan can be written to: `cells.seen(index)` is a state to look at, `cells.state(index)` one to change.
 /// Updates each cell that the scan's valid beams hit or pass, first all hits, then all passes (so the order of the
 /// beams does not decide which wins). A hit lies `push_m` behind the measured end point: walls are measured at the face
 /// of a cell while h is the distance to its centre (reading of Seo et al., (6)). O(cells passed), no allocation.
@@ -60,6 +60,7 @@ ScanReport integrate_scan(const Cell& policy, const Lattice<Dim>& lattice, Cells
     const typename Cell::Beam constants = policy.beam(variance_along(direction));
     traverse<Dim>(lattice, origin, end, [&](const Index<Dim>& index) {
       if (is_hit && index == hit_index) return;
+      if (policy.ignores_passes(cells.seen(index))) return;
       policy.pass(cells.state(index), constants, residual_m(index, range_m), stamp);
     });
   }

@@ -55,6 +55,9 @@ class LogOdds {
     add(state, params_.pass);
   }
 
+  /// Free beyond doubt.
+  [[nodiscard]] bool ignores_passes(const State& state) const { return state.log_odds <= params_.log_odds_min; }
+
   void forget_stamp(State& state) const { state.hit_by = 0; }
 
   [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }

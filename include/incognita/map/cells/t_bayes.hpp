@@ -107,6 +107,11 @@ class TBayes {
     }
   }
 
+  /// Free beyond doubt, and not saturated with hits.
+  [[nodiscard]] bool ignores_passes(const State& state) const {
+    return state.log_odds <= params_.log_odds_min && state.hits < params_.hits_max && params_.rule == Rule::robust;
+  }
+
   void forget_stamp(State& state) const { state.settled_by = 0; }
 
   [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }
