@@ -1,6 +1,7 @@
 /// The one exception of io/: something outside of the program is wrong, a file as a rule.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <stdexcept>
 #include <string>

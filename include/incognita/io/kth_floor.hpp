@@ -1,14 +1,12 @@
 /// A floor of a building as the KTH campus data set describes it in XML: rooms as contours of line segments.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "incognita/grid/lattice.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -57,19 +56,19 @@ inline void fill_polygon(FloorPlan& plan, const Polygon& corners, FloorCell valu
 }
 
 /// A passage made longer by `margin_m` at both ends, so that it also cuts the lines that the walls are drawn
-/// with.
-[[nodiscard]] inline Polygon lengthened(const Polygon& passage, double margin_m) {
-  const auto outwards = [&](const Point<2>& from, const Point<2>& to) -> Point<2> {
-    const Point<2> along = to - from;
-    return Point<2>(along.y(), -along.x()).normalized() * margin_m;
+/// with, and a hair narrower, so that it spares the pixels that its two sides run through.
+[[nodiscard]] inline Polygon clearing(const Polygon& passage, double margin_m) {
+  const auto cut = [margin_m](const Point<2>& from, const Point<2>& to, double side) {
+    const Point<2> along = (to - from).normalized() * margin_m;
+    const Point<2> outwards(side * along.y(), -side * along.x());
+    return Polygon{from + 0.01 * along + outwards, to - 0.01 * along + outwards};
   };
-  Point<2> near = outwards(passage[0], passage[1]);
-  Point<2> far = outwards(passage[2], passage[3]);
-  if (near.dot(passage[0] + passage[1] - passage[2] - passage[3]) < 0.0) {
-    near = -near;
-    far = -far;
-  }
-  return {passage[0] + near, passage[1] + near, passage[2] + far, passage[3] + far};
+  const Point<2> backwards = passage[0] + passage[1] - passage[2] - passage[3];
+  const Point<2> along = passage[1] - passage[0];
+  const double side = along.y() * backwards.x() - along.x() * backwards.y() < 0.0 ? -1.0 : 1.0;
+  Polygon cleared = cut(passage[0], passage[1], side);
+  for (const Point<2>& corner : cut(passage[2], passage[3], side)) cleared.push_back(corner);
+  return cleared;
 }
 
 /// An empty plan with room for all of a floor.
@@ -110,7 +109,9 @@ inline void fill_polygon(FloorPlan& plan, const Polygon& corners, FloorCell valu
     throw InputError(source, "the spaces lie on each other: together they cover more than " +
                                  format_number(painted_max_px) + " pixels");
   }
-  const Point<2> origin_m = (lower / pixel_size_m).array().floor() * pixel_size_m - margin_px * pixel_size_m;
+  // Multiples of the pixel size are pixel centres: walls of plans that are drawn on such a lattice are then
+  // as thick on the left as on the right.
+  const Point<2> origin_m = ((lower / pixel_size_m).array().floor() - (margin_px + 0.5)) * pixel_size_m;
   const Lattice<2> lattice(pixel_size_m, origin_m);
   const Index<2> size = lattice.index_of(upper).array() + 1 + margin_px;
   return FloorPlan(lattice, {Index<2>::Zero(), size}, FloorCell::solid);
@@ -173,7 +174,7 @@ struct KthRasterParams {
         std::optional<detail::Polygon> passage;
         if (segment.type == KthSegmentType::portal) passage = doors.passage(space, segment);
         if (passage) {
-          passages.push_back(detail::lengthened(*passage, pixel_size_m));
+          passages.push_back(detail::clearing(*passage, pixel_size_m));
         } else {
           draw_wall(segment.from_m, segment.to_m);
         }

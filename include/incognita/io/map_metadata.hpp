@@ -4,7 +4,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 #include "incognita/grid/floor_plan.hpp"
 #include "incognita/grid/grid.hpp"

@@ -22,7 +22,7 @@ inline std::vector<std::filesystem::path> create_missing_folders(const std::file
   };
   if (folder.empty()) fail("its name is empty");
   std::error_code error;
-  fs::path place = fs::absolute(folder, error).lexically_normal();
+  fs::path place = fs::absolute(folder, error);
   if (error) fail(error.message());
   if (!place.has_filename()) place = place.parent_path();
 

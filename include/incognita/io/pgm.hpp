@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "incognita/io/atomic_file.hpp"
 #include "incognita/io/image.hpp"

@@ -1,6 +1,7 @@
 /// Trajectories in the format of the TUM RGB-D benchmark: a line per pose, "time x y z qx qy qz qw".
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
