@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -29,6 +31,7 @@ struct Counting {
   void pass(State& state, const Beam&, float, ScanStamp) const {
     if (state.passes < 1000) ++state.passes;
   }
+  bool ignores_passes(const State& state) const { return state.passes == 1000; }
   void forget_stamp(State&) const {}
   static float log_odds(const State& state) {
     return std::log(1.0F + state.hits) - std::log(1.0F + state.passes);
@@ -81,6 +84,10 @@ struct RemembersForEver : Counting {
   void forget_stamp(State&) const = delete;
 };
 static_assert(!CellPolicy<RemembersForEver>);
+struct AnswersNoQuestion : Counting {
+  void ignores_passes(const State&) const {}
+};
+static_assert(!CellPolicy<AnswersNoQuestion>);
 struct OtherBeam : Counting {
   int beam(double) const { return 0; }
 };
@@ -103,6 +110,7 @@ struct Wrong {
   void pass(State& state, const Beam&, float, ScanStamp stamp) const {
     if (state.hit_by != stamp) state.log_odds = std::max(-10.0F, state.log_odds - 0.5F);
   }
+  bool ignores_passes(const State& state) const { return state.log_odds == -10.0F; }
   void forget_stamp(State& state) const { state.hit_by = 0; }
   static float log_odds(const State& state) { return state.log_odds; }
 };
@@ -132,6 +140,18 @@ struct HiddenCount : Wrong {
   }
   std::shared_ptr<int> calls = std::make_shared<int>(0);
 };
+struct IgnoresTooEarly : Wrong {
+  bool ignores_passes(const State& state) const { return state.log_odds <= -9.0F; }
+};
+struct CountsWhatItIgnores : Wrong {
+  void hit(State& state, const Beam& beam, float residual_m, ScanStamp) const {
+    if (state.hit_by % 2 == 0) Wrong::hit(state, beam, residual_m, 0);
+  }
+  void pass(State& state, const Beam&, float, ScanStamp) const {
+    state.log_odds = std::max(-10.0F, state.log_odds - 0.5F);
+    ++state.hit_by;  // seen by no log-odds, but by the next hit
+  }
+};
 struct ForgetsTooMuch : Wrong {
   void forget_stamp(State& state) const { state = {}; }
 };
@@ -159,6 +179,8 @@ TEST_CASE("The check of the laws catches a wrong cell policy", "[map]") {
   CHECK(breaks<DoublesWithoutBound>("log-odds stay finite: inf after 128 updates, hits alone"));
   CHECK(breaks<DividesByTheResidual>("log-odds stay finite"));
   CHECK(breaks<HiddenCount>("equal sequences give equal states"));
+  CHECK(breaks<IgnoresTooEarly>("a pass leaves a state for which ignores_passes holds as it is"));
+  CHECK(breaks<CountsWhatItIgnores>("a pass leaves a state for which ignores_passes holds as it is"));
   CHECK(breaks<ForgetsTooMuch>("forget_stamp leaves the log-odds as they are"));
   CHECK(breaks<ForgetsNothing>("forget_stamp makes every stamp new"));
 }

@@ -28,6 +28,26 @@ template <CellPolicy Policy>
     return false;
   };
 
+  // States are compared by what they do: their bytes may hold padding.
+  const auto check_ignored = [&report, &policy](const State& state, double variance_m2, float residual_m,
+                                                ScanStamp stamp) {
+    if (!policy.ignores_passes(state)) return true;
+    const auto beam = policy.beam(variance_m2);
+    State left = state;
+    State passed = state;
+    policy.pass(passed, beam, residual_m, stamp);
+    bool same = Policy::log_odds(left) == Policy::log_odds(passed);
+    for (int hit = 0; hit < 4; ++hit) {
+      for (State* const cell : {&left, &passed}) {
+        policy.hit(*cell, beam, 0.0F, stamp);
+        policy.pass(*cell, beam, residual_m, static_cast<ScanStamp>(stamp + 1));
+      }
+      same = same && Policy::log_odds(left) == Policy::log_odds(passed);
+    }
+    report.check(same, "a pass leaves a state for which ignores_passes holds as it is");
+    return same;
+  };
+
   const State unknown{};
   report.check(Policy::log_odds(unknown) == 0.0F, "a new cell has log-odds 0");
 
@@ -46,12 +66,14 @@ template <CellPolicy Policy>
       State passes{};
       bool hits_finite = true;
       bool passes_finite = true;
+      bool ignored = true;
       for (int step = 0; step < 20000; ++step) {
         const auto stamp = static_cast<ScanStamp>(step + 1);
         policy.hit(hits, beam, residual_m, stamp);
         policy.pass(passes, beam, residual_m, stamp);
         hits_finite = hits_finite && check_finite(hits, "hits alone", step);
         passes_finite = passes_finite && check_finite(passes, "passes alone", step);
+        ignored = ignored && check_ignored(passes, variance_m2, residual_m, stamp);
       }
     }
   }
@@ -65,6 +87,7 @@ template <CellPolicy Policy>
     bool equal = true;
     bool keeps = true;
     bool renews = true;
+    bool ignored = true;
     ScanStamp stamp = 1;
     for (int step = 0; step < 2000; ++step) {
       const double variance_m2 = std::pow(10.0, random.uniform(-8.0, 2.0));
@@ -84,6 +107,8 @@ template <CellPolicy Policy>
       update(copy, twin);
       finite = finite && check_finite(state, "hits and passes", step);
       equal = equal && Policy::log_odds(state) == Policy::log_odds(twin);
+
+      ignored = ignored && check_ignored(state, variance_m2, std::abs(residual_m), stamp);
 
       State forgetful = state;
       policy.forget_stamp(forgetful);
