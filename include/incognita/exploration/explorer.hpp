@@ -37,6 +37,7 @@ struct ExplorerParams {
   TravelParams travel;
   FollowParams follow;
   CollisionGuardParams guard;
+  RetreatParams retreat;
   GainParams gain;
   SetAsideParams set_aside;
   Ranking ranking = Ranking::gain_per_metre;
@@ -59,6 +60,7 @@ struct ExplorerParams {
     travel.validate();
     follow.validate();
     guard.validate();
+    retreat.validate();
     gain.validate();
     set_aside.validate();
     require_non_negative("ExplorerParams", "travel_offset_m", travel_offset_m);
@@ -103,7 +105,8 @@ class Explorer {
         map_(std::move(map)),
         entropy_(entropy),
         filter_(std::move(filter)),
-        set_aside_(params.set_aside) {
+        set_aside_(params.set_aside),
+        reached_(map_.grid().box()) {
     params_.validate();
   }
 
@@ -138,7 +141,7 @@ class Explorer {
     const Eigen::Vector2d position = filter_.belief().pose.position();
     if (retreats_from_) {
       if ((position - *retreats_from_).norm() < params_.retreat_distance_m) {
-        return guard_command(retreat_command(scan), scan, params_.guard);
+        return guard_command(retreat_command(scan, params_.guard.robot_radius_m, params_.retreat), scan, params_.guard);
       }
       retreats_from_.reset();
       must_decide_ = true;
@@ -276,7 +279,7 @@ class Explorer {
   SetAsidePlaces set_aside_;
   Decision decision_;
   PathFollower follower_;
-  IndexBox<2> reached_;  // the cells that scans have reached
+  IndexBox<2> reached_;  // the cells that scans have reached, those of the map given at the start included
   std::vector<GainWorkspace<Cell>> workspaces_;
   std::optional<Eigen::Vector2d> failed_;
   std::optional<Eigen::Vector2d> retreats_from_;  // where the robot stood when it began to retreat

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "incognita/core/error.hpp"
 #include "incognita/geometry/twist2.hpp"
@@ -61,6 +62,23 @@ struct CollisionGuardParams {
   return turn_m * std::max(0.0, along_rad - std::acos(std::max(-1.0, cosine)));
 }
 
+/// A beam's range as the mean over it and up to `reach` beams on either side, of those that hit within
+/// `similar_m` of it. The nearest of many noisy readings is always too near; between two walls, that would hold
+/// a robot for ever.
+[[nodiscard]] inline double smoothed_range_m(const Scan<2>& scan, std::size_t beam, std::size_t reach = 4,
+                                             double similar_m = 0.05) {
+  double sum_m = 0.0;
+  double count = 0.0;
+  const std::size_t last = std::min(beam + reach, scan.size() - 1);
+  for (std::size_t near = beam - std::min(beam, reach); near <= last; ++near) {
+    if (scan.reading(near) != Reading::hit) continue;
+    if (std::abs(scan.range_m(near) - scan.range_m(beam)) > similar_m) continue;
+    sum_m += scan.range_m(near);
+    count += 1.0;
+  }
+  return sum_m / count;
+}
+
 /// `command` with its speed lowered until the robot can stop before any measured point comes within its
 /// radius and margin, or within its radius and creep_margin_m while it creeps; what is nearer than that
 /// already must not come nearer still. It keeps turning as told, which is always safe for a disc, so a robot
@@ -70,11 +88,21 @@ struct CollisionGuardParams {
 [[nodiscard]] inline Twist2 guard_command(const Twist2& command, const Scan<2>& scan,
                                           const CollisionGuardParams& params = {}) {
   params.validate();
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    if (scan.reading(beam) == Reading::hit) nearest_m = std::min(nearest_m, scan.range_m(beam));
-  }
   const double keep_m = params.robot_radius_m + params.margin_m;
+  const double wanted_m_per_s = std::abs(command.speed_m_per_s);
+  const auto stopping_distance_m = [&](double speed_m_per_s) {
+    return speed_m_per_s * params.reaction_time_s +
+           speed_m_per_s * speed_m_per_s / (2.0 * params.deceleration_m_per_s2);
+  };
+  double nearest_m = std::numeric_limits<double>::infinity();
+  std::vector<Eigen::Vector2d> obstacles_m;  // what the robot could meet before it stops
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    if (scan.reading(beam) != Reading::hit) continue;
+    if (scan.range_m(beam) > keep_m + stopping_distance_m(wanted_m_per_s)) continue;
+    const double range_m = smoothed_range_m(scan, beam);
+    nearest_m = std::min(nearest_m, range_m);
+    obstacles_m.push_back(scan.direction(beam) * range_m);
+  }
   const double creep_keep_m =
       std::clamp(nearest_m, params.robot_radius_m, params.robot_radius_m + params.creep_margin_m);
   const double heading = command.speed_m_per_s < 0.0 ? -1.0 : 1.0;  // backwards: mirrored, turn included
@@ -82,20 +110,17 @@ struct CollisionGuardParams {
   const auto can_stop = [&](double speed_m_per_s) {
     const double radius_m = speed_m_per_s <= params.creep_speed_m_per_s ? creep_keep_m : keep_m;
     const double curvature_per_m = heading * command.turn_rate_rad_per_s / speed_m_per_s;
-    const double stopping_m = speed_m_per_s * params.reaction_time_s +
-                              speed_m_per_s * speed_m_per_s / (2.0 * params.deceleration_m_per_s2);
-    if (nearest_m > radius_m + stopping_m) return true;
-    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-      const double range_m = scan.range_m(beam);
-      if (range_m > radius_m + stopping_m || scan.reading(beam) != Reading::hit) continue;
-      Eigen::Vector2d obstacle_m = scan.end_point_m(beam);
-      obstacle_m.x() *= heading;
-      if (distance_to_contact_m(obstacle_m, curvature_per_m, std::min(range_m, radius_m)) < stopping_m)
+    const double stopping_m = stopping_distance_m(speed_m_per_s);
+    for (const Eigen::Vector2d& obstacle_m : obstacles_m) {
+      const double range_m = obstacle_m.norm();
+      if (range_m > radius_m + stopping_m) continue;
+      const Eigen::Vector2d ahead_m(heading * obstacle_m.x(), obstacle_m.y());
+      if (distance_to_contact_m(ahead_m, curvature_per_m, std::min(range_m, radius_m)) < stopping_m)
         return false;
     }
     return true;
   };
-  double speed_m_per_s = std::abs(command.speed_m_per_s);
+  double speed_m_per_s = wanted_m_per_s;
   while (speed_m_per_s > 0.0 && !can_stop(speed_m_per_s)) {
     speed_m_per_s *= 0.75;
     if (speed_m_per_s < params.speed_min_m_per_s) speed_m_per_s = 0.0;
