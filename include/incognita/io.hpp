@@ -8,7 +8,6 @@
 /// - io/png.hpp, pgm.hpp, image.hpp: read_png and write_png (libpng), read_pgm and write_pgm
 /// - io/image_file.hpp: read_image, a PNG or a PGM, by its first bytes
 /// - io/read_file.hpp, atomic_file.hpp, number.hpp: what the formats are made of
-/// - io/output_folder.hpp: whether a folder can be written, known before the work starts
 /// - io/input_error.hpp: the one exception
 ///
 /// Whatever is wrong with a file, missing, malformed, truncated, too large or hostile, throws InputError with
@@ -32,7 +31,6 @@
 #include "incognita/io/map_metadata.hpp"
 #include "incognita/io/map_server.hpp"
 #include "incognita/io/number.hpp"
-#include "incognita/io/output_folder.hpp"
 #include "incognita/io/pgm.hpp"
 #include "incognita/io/png.hpp"
 #include "incognita/io/read_file.hpp"
