@@ -1,0 +1,120 @@
+#!/usr/bin/env bash
+# The command line of kth_explorer: what it refuses, what it writes, and that runs repeat.
+# Usage: kth_explorer_cli.sh PATH_OF_KTH_EXPLORER
+set -u
+explorer=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failures=0
+
+fail() {
+  echo "FAILED: $*" >&2
+  failures=$((failures + 1))
+}
+
+# refused NAME TEXT ARGUMENTS...: exit code 2, one line on stderr with TEXT in it, nothing written.
+refused() {
+  local name=$1 text=$2 before after code
+  shift 2
+  before=$(find . | sort)
+  "$explorer" --quiet --output "${output:-out/deep}" "$@" >../stdout.$$ 2>../stderr.$$
+  code=$?
+  after=$(find . | sort)
+  [ $code -eq 2 ] || fail "$name: exit code $code instead of 2"
+  [ "$(wc -l <../stderr.$$)" -eq 1 ] || fail "$name: not one line on stderr: $(cat ../stderr.$$)"
+  [ -s ../stdout.$$ ] && fail "$name: something on stdout: $(cat ../stdout.$$)"
+  grep -qiF -- "$text" ../stderr.$$ || fail "$name: \"$text\" is not in: $(cat ../stderr.$$)"
+  [ "$before" = "$after" ] || fail "$name: left something behind: $after"
+  rm -f ../stdout.$$ ../stderr.$$
+}
+
+mkdir inputs run
+cd inputs
+printf '\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x10\0\0\0\x10\x08\0\0\0\0' >truncated.png
+printf 'image: truncated.png\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n' >truncated.yaml
+printf 'P5\n1 1\n255\n\xff' >one.pgm
+printf 'image: one.pgm\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n' >no_resolution.yaml
+cat >two_points.xml <<'XML'
+<?xml version="1.0" encoding="UTF-8"?>
+<floor BuildingName="x" FloorName="1">
+  <Scale PixelDistance="1000" RealDistance="10"/>
+  <space name="a" type="room">
+    <contour>
+      <centroid x="50" y="50"/>
+      <linesegment x1="0" y1="0" x2="100" y2="0" type="Wall" target=""/>
+      <linesegment x1="100" y1="0" x2="0" y2="0" type="Wall" target=""/>
+    </contour>
+  </space>
+</floor>
+XML
+cd ../run
+
+refused "a truncated PNG" truncated.png --map ../inputs/truncated.yaml
+refused "a YAML without resolution" resolution --map ../inputs/no_resolution.yaml
+refused "an XML with a space of two points" two_points.xml --map ../inputs/two_points.xml
+refused "a map that is not there" absent.yaml --map ../inputs/absent.yaml
+refused "a negative alpha" alpha --alpha -1
+refused "an alpha that is no number" alpha --alpha nan
+refused "a start inside a wall" start --start 0.1,0.1
+refused "a start that is no point" --start --start 3
+refused "a start of more than a point" --start --start 3,4,5
+output=/dev/null/x refused "an output below a file" /dev/null/x
+refused "resolution 0" --resolution --resolution 0
+refused "a negative duration" --duration --duration -5
+refused "an unknown option" --frobnicate --frobnicate
+refused "an unknown entropy" --entropy --entropy gibbs
+refused "negative threads" --threads --threads -1
+
+help=$("$explorer" --help 2>stderr) || fail "--help: exit code $?"
+[ -s stderr ] && fail "--help: something on stderr"
+for option in help map cells entropy alpha filter duration seed start resolution threads output quiet; do
+  grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
+done
+
+# run NAME ARGUMENTS...: 20 s of a mission into the folder NAME.
+run() {
+  local name=$1
+  shift
+  "$explorer" --quiet --duration 20 --seed 1 --output "$name" "$@" >stdout 2>stderr || fail "$name: exit code $?: $(cat stderr)"
+  [ -s stdout ] || [ -s stderr ] && fail "$name: --quiet prints"
+}
+run one --threads 1
+run again --threads 1
+run two --threads 2
+run behavioral --threads 2 --entropy behavioral --alpha 1
+run shannon --threads 2 --entropy shannon
+
+# metrics.json has one key a line.
+metrics() { grep -vE "^  \"([a-z_]*time[a-z_]*|threads${2:-})\":" "$1/metrics.json"; }
+same_metrics() {
+  [ "$(metrics "$1" "${3:-}")" = "$(metrics "$2" "${3:-}")" ] ||
+    fail "$1 and $2 differ: $(diff <(metrics "$1" "${3:-}") <(metrics "$2" "${3:-}"))"
+}
+same_metrics one again
+same_metrics one two
+same_metrics behavioral shannon '|entropy|alpha'
+for file in trajectory_estimated.tum trajectory_true.tum map.yaml map.png; do
+  cmp -s one/$file two/$file || fail "$file differs with the number of threads"
+done
+
+for file in metrics.json map.yaml map.png trajectory_estimated.tum trajectory_true.tum decisions.csv progress.csv overview.png; do
+  [ -s one/$file ] || fail "$file is missing or empty"
+done
+[ "$(ls -A one | wc -l)" -eq 8 ] || fail "other files than promised: $(ls -A one)"
+for key in map seed entropy alpha resolution_m duration_s scans distance_m collisions decisions stop_reason \
+  translation_rmse_m translation_mae_m heading_rmse_rad nees_mean map_error map_uncertainty_bits_per_step \
+  explored_fraction explored_area_m2 wall_time_s real_time_factor threads; do
+  grep -q "^  \"$key\": " one/metrics.json || fail "metrics.json lacks $key"
+done
+grep -q '"duration_s": 20.0,' one/metrics.json || fail "duration_s is not 20: $(grep duration_s one/metrics.json)"
+grep -q '"stop_reason": "out_of_time"' one/metrics.json || fail "the stop reason: $(grep stop_reason one/metrics.json)"
+grep -q "$work" one/metrics.json && fail "a path is in metrics.json"
+
+times=$(tail -n +2 one/progress.csv | cut -d, -f1 | tr '\n' ' ')
+[ "$times" = "$(seq -s ' ' 1 20) " ] || fail "progress.csv has not a line each second: $times"
+head -1 one/decisions.csv | grep -q '^time_s,candidates,' || fail "the header of decisions.csv: $(head -1 one/decisions.csv)"
+[ "$(wc -l <one/decisions.csv)" -gt 1 ] || fail "decisions.csv has no decision"
+
+[ $failures -eq 0 ] && echo "kth_explorer: the command line is as promised"
+exit $((failures > 0))
