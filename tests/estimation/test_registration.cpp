@@ -132,6 +132,25 @@ TEST_CASE("An end point is matched to the nearest line of its side, else to a po
   REQUIRE(match_surface(surfaces, {3.05, 3.15}, {0.0, -1.0}, params).surface == nullptr);
 }
 
+TEST_CASE("Among lines the match weighs the way along them by a quarter", "[estimation]") {
+  SurfaceMap<2>::Params short_lines;
+  short_lines.pool_radius_m = 0.12;
+  SurfaceMap<2> surfaces(short_lines);
+  for (int n = 0; n < 9; ++n) {
+    surfaces.add({0.02 + 0.02 * n, 0.10}, {0.0, 1.0});  // around (0.1, 0.10)
+    surfaces.add({0.22 + 0.02 * n, 0.02}, {0.0, 1.0});  // around (0.3, 0.02)
+  }
+  surfaces.refresh_normals();
+  const auto matched_y_m = [&](double y_m) {
+    const SurfaceMatch match = match_surface(surfaces, {0.15, y_m}, {0.0, 1.0}, RegistrationParams{});
+    REQUIRE(match.is_line);
+    return match.surface->mean_m.y();
+  };
+  // r^2 + t^2 / 4 of the first and of the second: 0.0087 > 0.0057, then 0.0036 < 0.0063.
+  REQUIRE(matched_y_m(0.010) == Approx(0.02));
+  REQUIRE(matched_y_m(0.045) == Approx(0.10));
+}
+
 TEST_CASE("Registration finds a robot's pose in a turned room to millimetres", "[estimation]") {
   Random random(2);
   const std::vector<room::Wall> walls = room::box(room::kTurned);
