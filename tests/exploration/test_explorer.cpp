@@ -1,0 +1,243 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "incognita/entropy/shannon.hpp"
+#include "incognita/estimation/dead_reckoning.hpp"
+#include "incognita/metrics/coverage.hpp"
+#include "incognita/metrics/visible_floor.hpp"
+#include "small_office.hpp"
+
+namespace incognita {
+namespace {
+
+using Measure = std::function<double(double)>;
+using OfficeExplorer = Explorer<Map<TBayes>, Measure, DvlEkf>;
+using BlindExplorer = Explorer<Map<TBayes>, Measure, DeadReckoning>;
+
+ExplorerParams quick_params() {
+  ExplorerParams params;
+  params.gain.beams = 30;
+  params.threads = 1;
+  return params;
+}
+
+DeadReckoning noisy_reckoning(double position_m_per_sqrt_s) {
+  DeadReckoning::Params params;
+  params.noise = {position_m_per_sqrt_s, 0.05};
+  return DeadReckoning(params);
+}
+
+double explored_fraction(const OfficeExplorer& explorer, const Simulator& simulator) {
+  const Coverage coverage(visible_floor(simulator.world(), test::left_start().position(), 0.2, 10.0),
+                          simulator.T_start_world(), explorer.map().lattice());
+  return coverage.explored_fraction([&](const Index<2>& cell) {
+    return explorer.params().thresholds.classify(explorer.map().log_odds(cell)) != Occupancy::unknown;
+  });
+}
+
+/// A scan from which nothing is learned.
+Scan<2> blind_scan() {
+  return {circular_beams(4, 10.0), std::vector<double>(4, std::numeric_limits<double>::quiet_NaN())};
+}
+
+bool same(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Pose2& p, const Pose2& q) {
+    return p.x_m == q.x_m && p.y_m == q.y_m && p.yaw_rad == q.yaw_rad;
+  });
+}
+
+}  // namespace
+
+TEST_CASE("two rooms are explored through their door, without a collision") {
+  const auto seed = GENERATE(1U, 2U);
+  Simulator simulator = test::office_simulator(0.9, seed);
+  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 120.0);
+  REQUIRE(explorer.stopped());
+  const bool is_done = *explorer.stopped() == StopReason::complete || *explorer.stopped() == StopReason::nothing_informative;
+  CAPTURE(seed, to_string(*explorer.stopped()), simulator.time_s());
+  CHECK(is_done);
+  CHECK(explored_fraction(explorer, simulator) > 0.95);
+  CHECK(simulator.collisions() == 0);
+  CHECK((explorer.belief().pose.position() - simulator.T_start_robot().position()).norm() < 0.1);
+
+  // The end is the end.
+  CHECK_FALSE(explorer.goal());
+  CHECK_FALSE(explorer.decide());
+  const Twist2 command = explorer.command(simulator.scan());
+  CHECK(command.speed_m_per_s == 0.0);
+  CHECK(command.turn_rate_rad_per_s == 0.0);
+}
+
+TEST_CASE("what lies behind a door too narrow for the robot is not reachable") {
+  Simulator simulator = test::office_simulator(0.3, 3);
+  ExplorerParams params = quick_params();
+  params.viewpoint_radius_m = 0.3;
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 200.0);
+  REQUIRE(explorer.stopped());
+  CHECK(to_string(*explorer.stopped()) == "nothing_reachable");
+  CHECK(simulator.collisions() == 0);
+  CHECK((test::left_start() * explorer.belief().pose).x_m < 4.0);
+}
+
+TEST_CASE("a robot whose pose is too uncertain is lost") {
+  Simulator simulator = test::office_simulator(0.9, 4);
+  ExplorerParams params = quick_params();
+  params.position_sigma_max_m = 0.3;
+  BlindExplorer explorer(params, Map<TBayes>{}, Behavioral{}, noisy_reckoning(0.3));
+  test::run_mission(explorer, simulator, 30.0);
+  REQUIRE(explorer.stopped());
+  CHECK(*explorer.stopped() == StopReason::lost);
+  // sigma^2 = 0.3^2 t and what the heading adds while driving.
+  CHECK(simulator.time_s() <= Approx(1.1));
+  CHECK(position_sigma_m(explorer.belief().covariance) > 0.3);
+}
+
+TEST_CASE("an exploration ends when its time is over") {
+  Simulator simulator = test::office_simulator(0.9, 5);
+  ExplorerParams params = quick_params();
+  params.duration_max_s = 3.05;
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 30.0);
+  REQUIRE(explorer.stopped());
+  CHECK(*explorer.stopped() == StopReason::out_of_time);
+  CHECK(explorer.decision().time_s == Approx(3.1));  // the first scan after
+}
+
+TEST_CASE("nothing is decided before the first scan") {
+  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  CHECK_FALSE(explorer.decide());
+  explorer.move(Pose2{0.1, 0.0, 0.0}, 0.1);
+  CHECK_FALSE(explorer.decide());
+  CHECK_FALSE(explorer.goal());
+  CHECK_FALSE(explorer.stopped());
+  CHECK(explorer.command(blind_scan()).speed_m_per_s == 0.0);
+}
+
+TEST_CASE("a map from before may be larger than what the scans have reached") {
+  Map<TBayes> known;
+  const Scan<2> open(circular_beams(360, 10.0));
+  for (const double x_m : {0.0, 8.0, 16.0}) known.update(open, {x_m, 0.0, 0.0}, Eigen::Matrix3d::Identity() * 1e-4);
+  ExplorerParams params = quick_params();
+  params.gain.range_max_m = 20.0;
+  params.gain.beams = 8;
+  params.gain.pose_spacing_m = 5.0;
+  params.candidates_max = 1000;
+  OfficeExplorer explorer(params, known, Behavioral{});
+  Scan<2> near(circular_beams(360, 10.0));
+  for (std::size_t beam = 0; beam < near.size(); ++beam) near.set_range_m(beam, std::numeric_limits<double>::quiet_NaN());
+  for (int scan = 0; scan < 20; ++scan) explorer.observe(near);
+  CHECK(explorer.decide());
+  CHECK_FALSE(explorer.decision().candidates.empty());
+  // All that a candidate may predict lies in the map.
+  for (const Candidate& candidate : explorer.decision().candidates) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(explorer.params().gain.range_max_m);
+    const Lattice<2>& lattice = explorer.map().lattice();
+    CHECK(explorer.map().grid().contains(lattice.index_of(candidate.goal_m() + reach)));
+    CHECK(explorer.map().grid().contains(lattice.index_of(candidate.goal_m() - reach)));
+  }
+}
+
+TEST_CASE("while the map stays the same no goal is taken up twice") {
+  ExplorerParams params = quick_params();
+  params.position_sigma_max_m = 100.0;  // the robot stands and learns nothing for minutes
+  Simulator simulator = test::office_simulator(0.9, 6);
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 1.9);
+  REQUIRE(explorer.goal());
+  const double decided_s = explorer.decision().time_s;
+  REQUIRE(decided_s == explorer.time_s());
+
+  std::vector<Eigen::Vector2d> frontiers_m{explorer.decision().chosen()->frontier_m};
+  const Scan<2> nothing = blind_scan();
+  double kept_until_s = 0.0;
+  while (!explorer.stopped() && explorer.time_s() < 400.0) {
+    explorer.move(Pose2{}, 0.1);
+    explorer.observe(nothing);
+    explorer.decide();
+    (void)explorer.command(nothing);
+    if (explorer.stopped()) break;
+    const Eigen::Vector2d frontier_m = explorer.decision().chosen()->frontier_m;
+    if (frontier_m == frontiers_m.back()) continue;
+    if (kept_until_s == 0.0) kept_until_s = explorer.time_s();
+    CHECK(std::find(frontiers_m.begin(), frontiers_m.end(), frontier_m) == frontiers_m.end());
+    frontiers_m.push_back(frontier_m);
+  }
+  REQUIRE(explorer.stopped());
+  CHECK(*explorer.stopped() == StopReason::nothing_informative);
+  CHECK(frontiers_m.size() > 1);
+  CHECK(kept_until_s > decided_s + 20.0);  // only because the goal was not reached in time
+}
+
+TEST_CASE("behavioral entropy with alpha 1 decides as Shannon's") {
+  const auto run = [](const Measure& measure) {
+    Simulator simulator = test::office_simulator(0.9, 7);
+    OfficeExplorer explorer(quick_params(), Map<TBayes>{}, measure);
+    return test::run_mission(explorer, simulator, 15.0);
+  };
+  const test::Mission behavioral = run(Behavioral{1.0});
+  const test::Mission shannon = run(Shannon{});
+  CHECK(behavioral.goals_m.size() > 1);
+  CHECK(same(behavioral.estimated, shannon.estimated));
+  CHECK(behavioral.goals_m == shannon.goals_m);
+  REQUIRE(behavioral.gains_nats.size() == shannon.gains_nats.size());
+  for (std::size_t i = 0; i < shannon.gains_nats.size(); ++i) {
+    CHECK(behavioral.gains_nats[i] == Approx(shannon.gains_nats[i]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the trajectory is the same to the bit for any number of threads") {
+  const auto run = [](int threads) {
+    Simulator simulator = test::office_simulator(0.9, 8);
+    ExplorerParams params = quick_params();
+    params.threads = threads;
+    OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{0.5});
+    return test::run_mission(explorer, simulator, 15.0);
+  };
+  const test::Mission one = run(1);
+  CHECK(one.goals_m.size() > 1);
+  for (const int threads : {2, 4}) {
+    const test::Mission more = run(threads);
+    CHECK(same(one.estimated, more.estimated));
+    CHECK(one.goals_m == more.goals_m);
+    CHECK(one.gains_nats == more.gains_nats);
+  }
+}
+
+TEST_CASE("explorer parameters out of bounds are refused by name and value") {
+  const auto refused = [](auto change, const char* where, const char* field, const char* value) {
+    ExplorerParams params;
+    change(params);
+    CHECK_THROWS_WITH(OfficeExplorer(params, Map<TBayes>{}, Behavioral{}),
+                      Catch::Contains(where) && Catch::Contains(field) && Catch::Contains(value));
+    CHECK_THROWS_AS(OfficeExplorer(params, Map<TBayes>{}, Behavioral{}), std::invalid_argument);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const char* const own = "ExplorerParams";
+  refused([](auto& p) { p.travel_offset_m = -0.25; }, own, "travel_offset_m", "-0.25");
+  refused([](auto& p) { p.candidates_max = 0; }, own, "candidates_max", "0");
+  refused([](auto& p) { p.viewpoint_radius_m = -3.0; }, own, "viewpoint_radius_m", "-3");
+  refused([](auto& p) { p.gain_min_nats = -0.5; }, own, "gain_min_nats", "-0.5");
+  refused([](auto& p) { p.decision_interval_s = -1.5; }, own, "decision_interval_s", "-1.5");
+  refused([](auto& p) { p.blocked_max_s = 0.0; }, own, "blocked_max_s", "0");
+  refused([](auto& p) { p.retreat_distance_m = -2.5; }, own, "retreat_distance_m", "-2.5");
+  refused([](auto& p) { p.sought_known_share = 1.5; }, own, "sought_known_share", "1.5");
+  refused([](auto& p) { p.sought_known_share = 0.0; }, own, "sought_known_share", "0");
+  refused([&](auto& p) { p.position_sigma_max_m = nan; }, own, "position_sigma_max_m", "nan");
+  refused([&](auto& p) { p.duration_max_s = nan; }, own, "duration_max_s", "nan");
+  refused([](auto& p) { p.threads = -2; }, own, "threads", "-2");
+  refused([](auto& p) { p.gain.beams = -7; }, "GainParams", "beams", "-7");
+  refused([](auto& p) { p.set_aside.radius_m = -0.5; }, "SetAsideParams", "radius_m", "-0.5");
+  refused([](auto& p) { p.thresholds.free_below = 0.5F; }, "OccupancyThresholds", "free_below", "0.5");
+  refused([](auto& p) { p.frontier.length_max_m = -4.0; }, "FrontierParams", "length_max_m", "-4");
+  refused([](auto& p) { p.travel.robot_radius_m = -0.2; }, "TravelParams", "robot_radius_m", "-0.2");
+}
+
+}  // namespace incognita
