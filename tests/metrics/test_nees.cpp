@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "incognita/core/random.hpp"
 #include "incognita/metrics/nees.hpp"
@@ -63,8 +64,15 @@ TEST_CASE("A covariance that is none is refused and nothing is added", "[metrics
   CHECK_THROWS_AS(mean.add(pose, pose, covariance), std::invalid_argument);
   covariance.diagonal() << 1.0, 1.0, -1.0;
   CHECK_THROWS_AS(mean.add(pose, pose, covariance), std::invalid_argument);
-  covariance.diagonal() << 1.0, std::numeric_limits<double>::quiet_NaN(), 1.0;
-  CHECK_THROWS_AS(mean.add(pose, pose, covariance), std::invalid_argument);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity}) {
+    for (const auto& [row, column] : {std::pair{1, 1}, {1, 0}, {2, 1}, {2, 0}}) {
+      covariance = Pose2::Covariance::Identity();
+      covariance(row, column) = covariance(column, row) = bad;
+      CHECK_THROWS_AS(mean.add(pose, pose, covariance), std::invalid_argument);
+    }
+  }
   CHECK(mean.count() == 0);
   CHECK(mean.position() == 0.0);
   CHECK(mean.pose() == 0.0);

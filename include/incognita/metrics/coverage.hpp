@@ -17,8 +17,8 @@ class Coverage {
  public:
   /// `visible` is not 0 where there is floor to be seen (visible_floor), in the world's frame. Throws
   /// std::invalid_argument when there is none, or for a pose that is not finite. O(cells).
-  Coverage(const Grid<std::uint8_t, 2>& visible, const Pose2& T_belief_world,
-           const Lattice<2>& belief_lattice) {
+  template <class Value>
+  Coverage(const Grid<Value, 2>& visible, const Pose2& T_belief_world, const Lattice<2>& belief_lattice) {
     if (!T_belief_world.is_finite()) throw std::invalid_argument("Coverage: T_belief_world is not finite");
     Grid<std::uint32_t, 2> counts(belief_lattice, belief_box(visible, T_belief_world, belief_lattice));
     std::uint64_t total = 0;

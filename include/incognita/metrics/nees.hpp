@@ -1,26 +1,44 @@
 /// Whether a covariance tells the truth: normalised estimation error squared.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
 
+#include "incognita/core/angles.hpp"
 #include "incognita/geometry/pose2.hpp"
 
 namespace incognita {
 
-/// e^T Sigma^-1 e; its mean is the number of dimensions when the errors have that covariance. Throws
-/// std::invalid_argument unless the covariance is finite and positive definite.
+/// e^T Sigma^-1 e over the first `Dim` coordinates of a pose's error (2: position alone); on average Dim when
+/// the errors have that covariance. Throws std::invalid_argument unless that part of the covariance is finite
+/// and positive definite.
 template <int Dim>
-[[nodiscard]] double nees(const Eigen::Matrix<double, Dim, 1>& error,
-                          const Eigen::Matrix<double, Dim, Dim>& covariance) {
-  const Eigen::LLT<Eigen::Matrix<double, Dim, Dim>> factor(covariance);
-  if (!covariance.allFinite() || factor.info() != Eigen::Success) {
-    throw std::invalid_argument("nees: the covariance is not finite and positive definite");
+[[nodiscard]] double nees(const Eigen::Vector3d& error, const Pose2::Covariance& covariance) {
+  static_assert(Dim >= 1 && Dim <= 3);
+  // Cholesky, written out: Eigen's costs every user of this header a second of parsing.
+  std::array<std::array<double, Dim>, Dim> root{};
+  std::array<double, Dim> whitened{};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < Dim; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t j = 0; j <= i; ++j) {
+      root[i][j] = covariance(row, static_cast<Eigen::Index>(j));
+      for (std::size_t k = 0; k < j; ++k) root[i][j] -= root[i][k] * root[j][k];
+      if (j < i) root[i][j] /= root[j][j];
+    }
+    if (!(root[i][i] > 0.0) || !std::isfinite(root[i][i])) {
+      throw std::invalid_argument("nees: the covariance is not finite and positive definite");
+    }
+    root[i][i] = std::sqrt(root[i][i]);
+    whitened[i] = error(row);
+    for (std::size_t k = 0; k < i; ++k) whitened[i] -= root[i][k] * whitened[k];
+    whitened[i] /= root[i][i];
+    sum += whitened[i] * whitened[i];
   }
-  return factor.matrixL().solve(error).squaredNorm();
+  return sum;
 }
 
 /// The error of an estimated pose over (x, y, yaw), in metres and radians, both poses in one frame.
@@ -32,7 +50,7 @@ template <int Dim>
 /// NEES of the position alone, the upper left block of the covariance; 2 on average for an honest one.
 [[nodiscard]] inline double position_nees(const Pose2& estimated, const Pose2& truth,
                                           const Pose2::Covariance& covariance) {
-  return nees<2>(pose_error(estimated, truth).head<2>(), covariance.topLeftCorner<2, 2>());
+  return nees<2>(pose_error(estimated, truth), covariance);
 }
 
 /// NEES of position and heading; 3 on average for an honest covariance.

@@ -1,4 +1,5 @@
-/// The floor that a robot can get to see from where it starts.
+/// The floor that a robot can get to see from where it starts. `Obstacles` is an ObstacleField or a World;
+/// templates, so that who does not call them does not compile them.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +24,9 @@ namespace incognita {
 /// clear, joined by their faces, from the nearest to the start (of 3 x 3 cells) that it reaches in a straight
 /// line. 1 for them, 0 elsewhere. Throws std::invalid_argument for a negative radius, when the disc is not
 /// clear at the start, or when it can reach no centre from there. O(cells).
-[[nodiscard]] inline Grid<std::uint8_t, 2> reachable_positions(const ObstacleField& obstacles,
-                                                               const Point<2>& start_m, double radius_m) {
+template <class Obstacles>
+[[nodiscard]] Grid<std::uint8_t, 2> reachable_positions(const Obstacles& obstacles, const Point<2>& start_m,
+                                                        double radius_m) {
   require_non_negative("reachable_positions", "radius_m", radius_m);
   require(obstacles.disc_is_clear(start_m, radius_m), "reachable_positions",
           "the clearance in m at the start", obstacles.clearance_m(start_m),
@@ -68,16 +70,17 @@ using Portals = std::vector<std::vector<IndexBox<2>>>;
 
 /// Light enters a region of hidden cells only through the cells around it that are not hidden: these, put
 /// together in square tiles. Regions are joined by corners, as lines of sight pass from cell to cell.
-[[nodiscard]] inline Portals portals_of(const Grid<FloorView, 2>& cells, const Components<2>& hidden) {
+template <class View>
+[[nodiscard]] Portals portals_of(const Grid<View, 2>& cells, const Components<2>& hidden) {
   constexpr int tile_cells = 16;
   const std::vector<Index<2>> steps = neighbor_steps<2>(Adjacency::corners);
   std::vector<std::map<std::pair<int, int>, IndexBox<2>>> tiles(hidden.sizes.size());
   for (Offset cell = 0; cell < static_cast<Offset>(cells.size()); ++cell) {
-    if (cells[cell] != FloorView::hidden) continue;
+    if (cells[cell] != View::hidden) continue;
     for (const Index<2>& step : steps) {
       const Index<2> beside = cells.index_at(cell) + step;
-      const FloorView view = cells.value(beside);
-      if (view != FloorView::seen && view != FloorView::position) continue;
+      const View view = cells.value(beside);
+      if (view != View::seen && view != View::position) continue;
       const Index<2> place = (beside - cells.box().lower) / tile_cells;
       IndexBox<2>& box = tiles[static_cast<std::size_t>(hidden.labels[cell])][{place.x(), place.y()}];
       box = enclosing_box(box, {beside, (beside.array() + 1).matrix()});
@@ -96,9 +99,9 @@ using Portals = std::vector<std::vector<IndexBox<2>>>;
 /// in sight (FieldOfView) of the centre of a cell that a disc can reach (reachable_positions). 1 for them, 0
 /// elsewhere. Throws as reachable_positions does, and for a range that is not finite and >= 0. O(cells), and
 /// for each cell that no near position sees a walk towards every gap by which light enters its region.
-[[nodiscard]] inline Grid<std::uint8_t, 2> visible_floor(const ObstacleField& obstacles,
-                                                         const Point<2>& start_m, double radius_m,
-                                                         double range_max_m) {
+template <class Obstacles>
+[[nodiscard]] Grid<std::uint8_t, 2> visible_floor(const Obstacles& obstacles, const Point<2>& start_m,
+                                                  double radius_m, double range_max_m) {
   require_non_negative("visible_floor", "range_max_m", range_max_m);
   using detail::FloorView;
   Grid<std::uint8_t, 2> visible = reachable_positions(obstacles, start_m, radius_m);

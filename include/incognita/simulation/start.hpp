@@ -26,10 +26,12 @@ inline void check_start(const ObstacleField& obstacles, const Point<2>& start_m,
   throw std::invalid_argument(message.str());
 }
 
-/// A start pose T_world_robot: the centre of a cell drawn from the largest region (by cells, joined by their
-/// faces) on whose centres a disc is clear, and a heading drawn from the whole circle. Takes two draws.
-/// Throws std::invalid_argument for a negative radius or when the disc is clear nowhere. O(cells).
-[[nodiscard]] inline Pose2 random_start(const ObstacleField& obstacles, double radius_m, Random& random) {
+/// A start pose T_world_robot in an ObstacleField or a World: the centre of a cell drawn from the largest
+/// region (by cells, joined by their faces) on whose centres a disc is clear, and a heading drawn from the
+/// whole circle. Takes two draws. Throws std::invalid_argument for a negative radius or when the disc is
+/// clear nowhere. O(cells).
+template <class Obstacles>
+[[nodiscard]] Pose2 random_start(const Obstacles& obstacles, double radius_m, Random& random) {
   require_non_negative("random_start", "radius_m", radius_m);
   const Components<2> regions = connected_components(disc_positions(obstacles, radius_m), Adjacency::faces,
                                                      [](std::uint8_t is_clear) { return is_clear != 0; });
