@@ -1,6 +1,7 @@
 /// The command line of kth_explorer.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>

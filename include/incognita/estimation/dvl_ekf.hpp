@@ -89,8 +89,10 @@ class DvlEkf {
     return params_.form == Form::registration ? correct_by_registration(scan, map) : correct_by_rays(scan, map);
   }
 
-  /// Adds the scan's end points, seen from the belief, to the surfaces.
-  void learn(const Scan<2>& scan) {
+  /// Adds the scan's end points, seen from the belief, to the surfaces. A template so that including this header does not
+  /// compile it.
+  template <int Dim>
+  void learn(const Scan<Dim>& scan) {
     if (params_.form != Form::registration) return;
     const Eigen::Matrix2d rotation = belief_.pose.rotation();
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
@@ -107,13 +109,21 @@ class DvlEkf {
     require(std::isfinite(yaw_rad), "DvlEkf::correct_heading", "yaw_rad", yaw_rad, "finite");
     require_positive("DvlEkf::correct_heading", "sigma_rad", sigma_rad);
     const double variance_rad2 = sigma_rad * sigma_rad;
-    const Eigen::Vector3d gain = belief_.covariance.col(2) / (belief_.covariance(2, 2) + variance_rad2);
-    const Eigen::Vector3d step = gain * angle_between_rad(belief_.pose.yaw_rad, yaw_rad);
-    Eigen::Matrix3d keep = Eigen::Matrix3d::Identity();
-    keep.col(2) -= gain;
-    belief_.covariance = keep * belief_.covariance * keep.transpose() + variance_rad2 * gain * gain.transpose();
-    belief_.pose = {belief_.pose.x_m + step.x(), belief_.pose.y_m + step.y(),
-                    wrap_angle_rad(belief_.pose.yaw_rad + step.z())};
+    const Eigen::Matrix3d prior = belief_.covariance;
+    const double innovation_rad2 = prior(2, 2) + variance_rad2;
+    const double turn_rad = angle_between_rad(belief_.pose.yaw_rad, yaw_rad);
+    const auto gain = [&](int row) { return prior(row, 2) / innovation_rad2; };
+    // (I - K H) P (I - K H)^T + K R K^T for H = (0, 0, 1).
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column <= row; ++column) {
+        const double kept = prior(row, column) - gain(row) * prior(2, column) - gain(column) * prior(row, 2) +
+                            gain(row) * gain(column) * prior(2, 2);
+        belief_.covariance(row, column) = kept + gain(row) * gain(column) * variance_rad2;
+        belief_.covariance(column, row) = belief_.covariance(row, column);
+      }
+    }
+    belief_.pose = {belief_.pose.x_m + gain(0) * turn_rad, belief_.pose.y_m + gain(1) * turn_rad,
+                    wrap_angle_rad(belief_.pose.yaw_rad + gain(2) * turn_rad)};
   }
 
   [[nodiscard]] PoseBelief imagine_motion(const PoseBelief& belief, const Pose2& increment, double duration_s) const {
@@ -123,8 +133,9 @@ class DvlEkf {
   /// The belief after scan_count scans like the one whose hits are given, without knowing their residuals: (11a).
   [[nodiscard]] PoseBelief imagine_scan(const PoseBelief& belief, std::span<const RayObservation> hits,
                                         std::size_t beam_count, double scan_count) const {
-    const Information information = ray_information(hits, beam_count, params_.imagined);
-    return {belief.pose, updated_covariance(belief.covariance, scan_count * information.matrix)};
+    RayUpdateParams params = params_.imagined;
+    params.gamma *= scan_count;
+    return {belief.pose, updated_covariance(belief.covariance, ray_information(hits, beam_count, params).matrix)};
   }
 
  private:

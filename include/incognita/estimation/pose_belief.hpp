@@ -49,24 +49,43 @@ struct MotionNoise {
   [[nodiscard]] Eigen::Matrix3d covariance(double duration_s) const {
     const double position_m2 = position_m_per_sqrt_s * position_m_per_sqrt_s * duration_s;
     const double yaw_rad2 = yaw_rad_per_sqrt_s * yaw_rad_per_sqrt_s * duration_s;
-    return Eigen::Vector3d(position_m2, position_m2, yaw_rad2).asDiagonal();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    covariance(0, 0) = covariance(1, 1) = position_m2;
+    covariance(2, 2) = yaw_rad2;
+    return covariance;
   }
 };
 
 /// F_x of Seo et al., (7): the derivative of the next pose, pose * increment, by the pose.
 [[nodiscard]] inline Eigen::Matrix3d motion_jacobian(const Pose2& pose, const Pose2& increment) {
-  const Eigen::Vector2d moved = pose.rotation() * increment.position();
+  const double c = std::cos(pose.yaw_rad);
+  const double s = std::sin(pose.yaw_rad);
   Eigen::Matrix3d jacobian = Eigen::Matrix3d::Identity();
-  jacobian(0, 2) = -moved.y();
-  jacobian(1, 2) = moved.x();
+  jacobian(0, 2) = -(s * increment.x_m + c * increment.y_m);
+  jacobian(1, 2) = c * increment.x_m - s * increment.y_m;
   return jacobian;
 }
 
 /// The prediction step, Seo et al., (7): the pose moves by `increment` (in the robot's frame) within duration_s.
 [[nodiscard]] inline PoseBelief propagate(const PoseBelief& belief, const Pose2& increment, const MotionNoise& noise,
                                           double duration_s) {
+  // F P F^T by coefficient: F is the identity but for its last column.
   const Eigen::Matrix3d jacobian = motion_jacobian(belief.pose, increment);
-  return {belief.pose * increment, jacobian * belief.covariance * jacobian.transpose() + noise.covariance(duration_s)};
+  const Eigen::Matrix3d& prior = belief.covariance;
+  const double a = jacobian(0, 2);
+  const double b = jacobian(1, 2);
+  PoseBelief next{belief.pose * increment, noise.covariance(duration_s)};
+  Eigen::Matrix3d& covariance = next.covariance;
+  const double xt = prior(0, 2) + a * prior(2, 2);
+  const double yt = prior(1, 2) + b * prior(2, 2);
+  const double xy = prior(0, 1) + a * prior(1, 2) + b * xt;
+  covariance(0, 0) += prior(0, 0) + a * (prior(0, 2) + xt);
+  covariance(1, 1) += prior(1, 1) + b * (prior(1, 2) + yt);
+  covariance(2, 2) += prior(2, 2);
+  covariance(0, 1) = covariance(1, 0) = xy;
+  covariance(0, 2) = covariance(2, 0) = xt;
+  covariance(1, 2) = covariance(2, 1) = yt;
+  return next;
 }
 
 }  // namespace incognita

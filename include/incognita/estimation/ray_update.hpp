@@ -50,7 +50,7 @@ struct RayUpdateParams {
   const double tempered = params.gamma / static_cast<double>(divisor);
   for (const RayObservation& hit : hits) {
     const double variance_m2 = measurement_variance_m2(params.dvl, hit.probability, params.mixture);
-    information.add({-hit.direction.x(), -hit.direction.y(), 0.0}, hit.residual_m, tempered / variance_m2);
+    information.add({-hit.direction[0], -hit.direction[1], 0.0}, hit.residual_m, tempered / variance_m2);
   }
   return information;
 }
@@ -61,9 +61,9 @@ struct RayUpdateParams {
   const Information information = ray_information(hits, beam_count, params);
   PoseBelief posterior;
   posterior.covariance = updated_covariance(prior.covariance, information.matrix);
-  const Eigen::Vector3d correction = posterior.covariance * information.vector;
-  posterior.pose = {prior.pose.x_m + correction.x(), prior.pose.y_m + correction.y(),
-                    wrap_angle_rad(prior.pose.yaw_rad + correction.z())};
+  const Eigen::Vector3d correction = product(posterior.covariance, information.vector);
+  posterior.pose = {prior.pose.x_m + correction[0], prior.pose.y_m + correction[1],
+                    wrap_angle_rad(prior.pose.yaw_rad + correction[2])};
   return posterior;
 }
 

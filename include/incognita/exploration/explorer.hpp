@@ -18,6 +18,7 @@
 #include "incognita/exploration/stop_reason.hpp"
 #include "incognita/frontier/frontier.hpp"
 #include "incognita/grid/distance_transform.hpp"
+#include "incognita/grid/traversal.hpp"
 #include "incognita/planning/collision_guard.hpp"
 #include "incognita/planning/follow.hpp"
 #include "incognita/planning/retreat.hpp"
@@ -122,15 +123,16 @@ class Explorer {
     const ScanReport report = map_.update(scan, filter_.belief().pose, filter_.belief().covariance);
     filter_.learn(scan);
     reached_ = enclosing_box(reached_, cells_in_reach(map_.lattice(), scan, filter_.belief().pose, map_.hit_push_m()));
-    has_observed_ = true;
+    extend_trail();
     return report;
   }
 
   /// Decides where to go if there is reason to; cheap when there is none. Returns whether it was decided anew.
   bool decide() {
-    if (decision_.stopped || !has_observed_ || !filter_.is_ready()) return false;
+    if (decision_.stopped) return false;
     if (position_sigma_m(filter_.belief().covariance) > params_.position_sigma_max_m) return stop(StopReason::lost);
     if (time_s_ >= params_.duration_max_s) return stop(StopReason::out_of_time);
+    if (trail_.empty() || !filter_.is_ready()) return false;
     if (decision_.chosen() != nullptr && !goal_is_done()) return false;
     return choose();
   }
@@ -174,6 +176,14 @@ class Explorer {
 
  private:
   using Cell = typename MapType::CellType;
+
+  void extend_trail() {
+    const Eigen::Vector2d to = filter_.belief().pose.position();
+    const Eigen::Vector2d from = trail_.empty() ? to : map_.lattice().center_m(trail_.back());
+    traverse<2>(map_.lattice(), from, to, [&](const Index<2>& cell) {
+      if (trail_.empty() || trail_.back() != cell) trail_.push_back(cell);
+    });
+  }
 
   bool stop(StopReason reason) {
     decision_ = {time_s_, {}, reason};
@@ -247,8 +257,13 @@ class Explorer {
   /// A candidate for each frontier that can be seen from a reachable place, cheapest to reach first.
   [[nodiscard]] std::vector<Candidate> find_candidates(const OccupancyGrid<2>& occupancy,
                                                        const std::vector<Frontier<2>>& frontiers) const {
-    const Grid<float, 2> clearance_m =
+    Grid<float, 2> clearance_m =
         distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; });
+    // Where the robot has been its body fits, however tight the belief draws the place: no door closes behind it.
+    for (const Index<2>& cell : trail_) {
+      float& clearance = clearance_m[clearance_m.offset_of(cell)];
+      clearance = std::max(clearance, static_cast<float>(params_.travel.clearance_hard_m()));
+    }
     const TravelCostField field(occupancy, clearance_m, filter_.belief().pose.position(), params_.travel);
     std::vector<std::pair<double, Candidate>> found;
     for (const Frontier<2>& frontier : frontiers) {
@@ -280,13 +295,13 @@ class Explorer {
   Decision decision_;
   PathFollower follower_;
   IndexBox<2> reached_;  // the cells that scans have reached, those of the map given at the start included
+  std::vector<Index<2>> trail_;  // the cells that the robot's centre has passed, each a face neighbour of the last
   std::vector<GainWorkspace<Cell>> workspaces_;
   std::optional<Eigen::Vector2d> failed_;
   std::optional<Eigen::Vector2d> retreats_from_;  // where the robot stood when it began to retreat
   bool must_decide_ = false;
   double time_s_ = 0.0;
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive
-  bool has_observed_ = false;
 };
 
 }  // namespace incognita

@@ -12,18 +12,29 @@ struct Box {
   Vector lower = Vector::Zero();
   Vector upper = Vector::Zero();
 
-  [[nodiscard]] bool empty() const { return !(lower.array() < upper.array()).all(); }
+  [[nodiscard]] bool empty() const {
+    for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
+      if (!(lower[axis] < upper[axis])) return true;
+    }
+    return false;
+  }
 
   [[nodiscard]] Vector extent() const { return upper - lower; }
 
   [[nodiscard]] bool contains(const Vector& x) const {
-    return (x.array() >= lower.array()).all() && (x.array() < upper.array()).all();
+    for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
+      if (!(lower[axis] <= x[axis] && x[axis] < upper[axis])) return false;
+    }
+    return true;
   }
 
   /// True when every point of `other` is in this box; an empty box is inside every other.
   [[nodiscard]] bool contains(const Box& other) const {
-    return other.empty() ||
-           ((other.lower.array() >= lower.array()).all() && (other.upper.array() <= upper.array()).all());
+    if (other.empty()) return true;
+    for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
+      if (!(lower[axis] <= other.lower[axis] && other.upper[axis] <= upper[axis])) return false;
+    }
+    return true;
   }
 };
 

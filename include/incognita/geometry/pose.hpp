@@ -1,10 +1,11 @@
 /// The pose that belongs to a dimension, and the check of a covariance.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/pose3.hpp"
@@ -15,13 +16,34 @@ namespace incognita {
 template <int Dim>
 using Pose = std::conditional_t<Dim == 2, Pose2, Pose3>;
 
-/// True when `matrix` is finite, symmetric and has no negative eigenvalue, each within `tolerance` of its largest entry.
+/// True when `matrix` is finite, symmetric and has no eigenvalue below 0, each within `tolerance` of its largest entry:
+/// raised by that much on its diagonal, it must have a Cholesky factor.
 template <class Matrix>
 [[nodiscard]] bool is_covariance(const Matrix& matrix, double tolerance = 1e-9) {
-  if (!matrix.allFinite()) return false;
-  const double slack = tolerance * matrix.cwiseAbs().maxCoeff();
-  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > slack) return false;
-  return Eigen::SelfAdjointEigenSolver<Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() >= -slack;
+  constexpr int size = Matrix::RowsAtCompileTime;
+  double largest = 0.0;
+  for (int row = 0; row < size; ++row) {
+    for (int column = 0; column < size; ++column) {
+      if (!std::isfinite(matrix(row, column))) return false;
+      largest = std::max(largest, std::abs(matrix(row, column)));
+    }
+  }
+  if (largest == 0.0) return true;
+  const double slack = tolerance * largest;
+  Matrix lower = Matrix::Zero();
+  for (int column = 0; column < size; ++column) {
+    double pivot = matrix(column, column) + slack;
+    for (int k = 0; k < column; ++k) pivot -= lower(column, k) * lower(column, k);
+    if (!(pivot > 0.0)) return false;
+    lower(column, column) = std::sqrt(pivot);
+    for (int row = column + 1; row < size; ++row) {
+      if (std::abs(matrix(row, column) - matrix(column, row)) > slack) return false;
+      double rest = matrix(row, column);
+      for (int k = 0; k < column; ++k) rest -= lower(row, k) * lower(column, k);
+      lower(row, column) = rest / lower(column, column);
+    }
+  }
+  return true;
 }
 
 }  // namespace incognita

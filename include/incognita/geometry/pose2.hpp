@@ -25,22 +25,29 @@ struct Pose2 {
   [[nodiscard]] Vector position() const { return {x_m, y_m}; }
 
   [[nodiscard]] Rotation rotation() const {
-    const double c = std::cos(yaw_rad);
-    const double s = std::sin(yaw_rad);
-    return (Rotation() << c, -s, s, c).finished();
+    Rotation matrix;
+    matrix(0, 0) = matrix(1, 1) = std::cos(yaw_rad);
+    matrix(1, 0) = std::sin(yaw_rad);
+    matrix(0, 1) = -matrix(1, 0);
+    return matrix;
   }
 
   /// Coordinates in frame a of a point given in frame b.
-  [[nodiscard]] Vector operator*(const Vector& point_b) const { return position() + rotation() * point_b; }
+  [[nodiscard]] Vector operator*(const Vector& point_b) const {
+    const double c = std::cos(yaw_rad);
+    const double s = std::sin(yaw_rad);
+    return {x_m + c * point_b[0] - s * point_b[1], y_m + s * point_b[0] + c * point_b[1]};
+  }
 
   [[nodiscard]] Pose2 operator*(const Pose2& T_b_c) const {
     const Vector p = *this * T_b_c.position();
-    return {p.x(), p.y(), wrap_angle_rad(yaw_rad + T_b_c.yaw_rad)};
+    return {p[0], p[1], wrap_angle_rad(yaw_rad + T_b_c.yaw_rad)};
   }
 
   [[nodiscard]] Pose2 inverse() const {
-    const Vector p = -(rotation().transpose() * position());
-    return {p.x(), p.y(), wrap_angle_rad(-yaw_rad)};
+    const double c = std::cos(yaw_rad);
+    const double s = std::sin(yaw_rad);
+    return {-(c * x_m + s * y_m), s * x_m - c * y_m, wrap_angle_rad(-yaw_rad)};
   }
 
   [[nodiscard]] bool is_finite() const {

@@ -45,11 +45,17 @@ class Lattice {
 
   /// The cell that holds a point. The point must lie within 2^31 cells of the origin.
   [[nodiscard]] Index<Dim> index_of(const Point<Dim>& point_m) const {
-    return to_cells(point_m).array().floor().template cast<int>();
+    Index<Dim> index;
+    for (int axis = 0; axis < Dim; ++axis) {
+      index[axis] = static_cast<int>(std::floor((point_m[axis] - origin_m_[axis]) * per_m_));
+    }
+    return index;
   }
 
   [[nodiscard]] Point<Dim> center_m(const Index<Dim>& index) const {
-    return origin_m_ + (index.template cast<double>().array() + 0.5).matrix() * resolution_m_;
+    Point<Dim> center;
+    for (int axis = 0; axis < Dim; ++axis) center[axis] = origin_m_[axis] + (index[axis] + 0.5) * resolution_m_;
+    return center;
   }
 
   /// The smallest box of cells that holds a box of points (upper face included).
