@@ -131,7 +131,7 @@ TEST_CASE("map metadata: hostile files end at once") {
   CHECK_FALSE(parse_refusal(nested).empty());
   std::string aliases = "a: &a [x, x, x, x, x, x, x, x, x]\n";
   for (char name = 'b'; name <= 'z'; ++name) {
-    const std::string before = "*" + std::string(1, static_cast<char>(name - 1));
+    const std::string before{'*', static_cast<char>(name - 1)};
     aliases += std::string(1, name) + ": &" + name + " [" + before;
     for (int i = 0; i < 8; ++i) aliases += ", " + before;
     aliases += "]\n";
