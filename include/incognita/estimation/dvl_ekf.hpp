@@ -22,7 +22,7 @@ class DvlEkf {
   enum class Form { registration, ray };
 
   struct Params {
-    PoseBelief start{{}, Eigen::Vector3d(1e-6, 1e-6, 1e-6).asDiagonal()};
+    PoseBelief start{{}, diagonal_covariance(1e-6, 1e-6, 1e-6)};
     /// Q of (7). Larger than the odometry's own noise: errors of a map are correlated over scans, and a filter matched
     /// to the odometry grows sure of them (reading of Seo et al.: NEES 200 to 1400).
     MotionNoise noise{0.0632, 0.0632};
@@ -148,7 +148,7 @@ class DvlEkf {
 
   [[nodiscard]] bool stands_at_start() const {
     const Pose2& start = params_.start.pose;
-    return (driven_.pose.position() - start.position()).norm() <= params_.start_hold_distance_m &&
+    return distance(driven_.pose.position(), start.position()) <= params_.start_hold_distance_m &&
            std::abs(angle_between_rad(start.yaw_rad, driven_.pose.yaw_rad)) <= params_.start_hold_turn_rad;
   }
 
@@ -157,7 +157,7 @@ class DvlEkf {
     const auto probability = [&](const Surface<2>& surface) {
       // The belief's hits lie a little behind the measured face, so look there too.
       const double at_face = map.probability(map.lattice().index_of(surface.mean_m));
-      const double behind = map.probability(map.lattice().index_of(surface.mean_m + 0.1 * surface.view));
+      const double behind = map.probability(map.lattice().index_of(sum(surface.mean_m, scaled(surface.view, 0.1))));
       return admitted(std::max(at_face, behind));
     };
     const Registration registration = register_scan(belief_, scan, surfaces_, probability, params_.registration);
@@ -174,14 +174,14 @@ class DvlEkf {
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
       if (scan.reading(beam) != Reading::hit) continue;
       const double range_m = scan.range_m(beam) + map.hit_push_m();
-      const Eigen::Vector2d end = origin + rotation * scan.direction(beam) * (range_m + ray_search_m);
+      const Eigen::Vector2d end = sum(origin, scaled(product(rotation, scan.direction(beam)), range_m + ray_search_m));
       traverse<2>(map.lattice(), origin, end, [&](const Index<2>& index) {
         const double probability = map.probability(index);
         if (probability <= 0.5) return true;
-        const Eigen::Vector2d to_cell = map.lattice().center_m(index) - origin;
-        const double distance_m = to_cell.norm();
+        const Eigen::Vector2d to_cell = difference(map.lattice().center_m(index), origin);
+        const double distance_m = norm(to_cell);
         if (distance_m <= 0.0 || admitted(probability) < 0.0) return false;
-        hits.push_back({to_cell / distance_m, range_m - distance_m, probability});
+        hits.push_back({{to_cell[0] / distance_m, to_cell[1] / distance_m}, range_m - distance_m, probability});
         squares_m2 += (range_m - distance_m) * (range_m - distance_m);
         return false;
       });

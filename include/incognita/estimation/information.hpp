@@ -11,7 +11,7 @@ namespace incognita {
 /// The sum of H^T R^-1 H and H^T R^-1 r over measurements.
 struct Information {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  Eigen::Vector3d vector{0.0, 0.0, 0.0};
 
   /// Adds a scalar measurement with Jacobian `jacobian`, residual measured minus expected, and weight 1 / variance.
   void add(const Eigen::Vector3d& jacobian, double residual, double weight) {
@@ -47,14 +47,14 @@ struct Information {
 [[nodiscard]] inline Eigen::Matrix3d updated_covariance(const Eigen::Matrix3d& prior,
                                                         const Eigen::Matrix3d& information) {
   const Eigen::Matrix3d factor = lower_factor(prior);
-  Eigen::Matrix3d inner = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d inner;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
       double sum = 0.0;
       for (int k = 0; k < 3; ++k) {
         for (int l = 0; l < 3; ++l) sum += factor(k, i) * information(k, l) * factor(l, j);
       }
-      inner(i, j) += sum;
+      inner(i, j) = (i == j ? 1.0 : 0.0) + sum;
       inner(j, i) = inner(i, j);
     }
   }
@@ -76,15 +76,6 @@ struct Information {
     }
   }
   return posterior;
-}
-
-/// matrix * vector.
-[[nodiscard]] inline Eigen::Vector3d product(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& vector) {
-  Eigen::Vector3d result;
-  for (int row = 0; row < 3; ++row) {
-    result[row] = matrix(row, 0) * vector[0] + matrix(row, 1) * vector[1] + matrix(row, 2) * vector[2];
-  }
-  return result;
 }
 
 }  // namespace incognita

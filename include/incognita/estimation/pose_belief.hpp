@@ -18,6 +18,15 @@ struct PoseBelief {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
+/// The covariance of independent errors.
+[[nodiscard]] inline Eigen::Matrix3d diagonal_covariance(double x_m2, double y_m2, double yaw_rad2) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance(0, 0) = x_m2;
+  covariance(1, 1) = y_m2;
+  covariance(2, 2) = yaw_rad2;
+  return covariance;
+}
+
 /// Throws std::invalid_argument unless the pose is finite and the covariance is one.
 inline void require_belief(const char* where, const PoseBelief& belief) {
   if (!belief.pose.is_finite()) throw std::invalid_argument(std::string(where) + ": the start pose is not finite");
@@ -25,6 +34,15 @@ inline void require_belief(const char* where, const PoseBelief& belief) {
     throw std::invalid_argument(std::string(where) +
                                 ": the start covariance is not finite, symmetric and positive semi-definite");
   }
+}
+
+/// The position's block.
+[[nodiscard]] inline Eigen::Matrix2d position_covariance(const Eigen::Matrix3d& covariance) {
+  Eigen::Matrix2d block;
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 2; ++column) block(row, column) = covariance(row, column);
+  }
+  return block;
 }
 
 /// The standard deviation of the position along its worst direction, in metres.
@@ -49,10 +67,7 @@ struct MotionNoise {
   [[nodiscard]] Eigen::Matrix3d covariance(double duration_s) const {
     const double position_m2 = position_m_per_sqrt_s * position_m_per_sqrt_s * duration_s;
     const double yaw_rad2 = yaw_rad_per_sqrt_s * yaw_rad_per_sqrt_s * duration_s;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    covariance(0, 0) = covariance(1, 1) = position_m2;
-    covariance(2, 2) = yaw_rad2;
-    return covariance;
+    return diagonal_covariance(position_m2, position_m2, yaw_rad2);
   }
 };
 
@@ -60,7 +75,8 @@ struct MotionNoise {
 [[nodiscard]] inline Eigen::Matrix3d motion_jacobian(const Pose2& pose, const Pose2& increment) {
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
-  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) jacobian(axis, axis) = 1.0;
   jacobian(0, 2) = -(s * increment.x_m + c * increment.y_m);
   jacobian(1, 2) = c * increment.x_m - s * increment.y_m;
   return jacobian;

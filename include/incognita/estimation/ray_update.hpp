@@ -9,6 +9,7 @@
 #include "incognita/core/error.hpp"
 #include "incognita/estimation/information.hpp"
 #include "incognita/estimation/pose_belief.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/sensor/dvl.hpp"
 
 namespace incognita {

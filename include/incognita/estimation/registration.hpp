@@ -67,10 +67,10 @@ struct SurfaceMatch {
   double point_cost_m2 = params.point_distance_max_m * params.point_distance_max_m;
   surfaces.for_each_near(end_point_m, [&](const Surface<2>& surface) {
     if (!surface.faces(direction)) return;
-    const Eigen::Vector2d offset_m = end_point_m - surface.mean_m;
-    const double distance_m2 = offset_m.squaredNorm();
+    const Eigen::Vector2d offset_m = difference(end_point_m, surface.mean_m);
+    const double distance_m2 = dot(offset_m, offset_m);
     if (surface.planar) {
-      const double across_m = surface.normal.dot(offset_m);
+      const double across_m = dot(surface.normal, offset_m);
       const double along_m2 = distance_m2 - across_m * across_m;
       const double cost_m2 = across_m * across_m + 0.25 * along_m2;
       if (std::abs(across_m) <= params.across_max_m && along_m2 <= params.along_max_m * params.along_max_m &&
@@ -89,7 +89,15 @@ struct SurfaceMatch {
 
 /// The derivative of an end point in the map's frame by (x, y, yaw), projected on `axis`.
 [[nodiscard]] inline Eigen::Vector3d end_point_jacobian(const Eigen::Vector2d& axis, const Eigen::Vector2d& rotated_m) {
-  return {axis.x(), axis.y(), axis.y() * rotated_m.x() - axis.x() * rotated_m.y()};
+  return {axis[0], axis[1], axis[1] * rotated_m[0] - axis[0] * rotated_m[1]};
+}
+
+/// The Gauss-Newton step counted from the prior, which needs no inverse of the prior's covariance. A template, so that its
+/// Eigen expression costs only those who register.
+template <class Matrix, class Vector>
+[[nodiscard]] Vector gauss_newton_step(const Matrix& posterior, const Matrix& information, const Vector& gradient,
+                                       const Vector& from_prior, double tempered) {
+  return posterior * (tempered * (information * from_prior + gradient));
 }
 
 /// Minimises the prior's Mahalanobis distance plus the tempered, robust distances of the end points to their surfaces,
@@ -110,15 +118,16 @@ template <class Probability>
     double squares_m2 = 0.0;
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
       if (scan.reading(beam) != Reading::hit) continue;
-      const Eigen::Vector2d direction = rotation * scan.direction(beam);
-      const Eigen::Vector2d rotated_m = direction * scan.range_m(beam);
-      const SurfaceMatch match = match_surface(surfaces, origin + rotated_m, direction, params);
+      const Eigen::Vector2d direction = product(rotation, scan.direction(beam));
+      const Eigen::Vector2d rotated_m = scaled(direction, scan.range_m(beam));
+      const Eigen::Vector2d end_point_m = sum(origin, rotated_m);
+      const SurfaceMatch match = match_surface(surfaces, end_point_m, direction, params);
       if (match.surface == nullptr) continue;
       const double probability = occupied_probability(*match.surface);
       if (probability < 0.0) continue;
-      const Eigen::Vector2d offset_m = origin + rotated_m - match.surface->mean_m;
+      const Eigen::Vector2d offset_m = difference(end_point_m, match.surface->mean_m);
       const double precision = 1.0 / measurement_variance_m2(params.dvl, probability, params.mixture);
-      const double residual_m = match.is_line ? match.surface->normal.dot(offset_m) : offset_m.norm();
+      const double residual_m = match.is_line ? dot(match.surface->normal, offset_m) : norm(offset_m);
       const double robust = std::min(1.0, params.huber_m / std::max(std::abs(residual_m), 1e-12));
       ++associations;
       squares_m2 += residual_m * residual_m;
@@ -126,20 +135,21 @@ template <class Probability>
         information.add(end_point_jacobian(match.surface->normal, rotated_m), -residual_m, robust * precision);
       } else {
         const double weight = params.point_weight * robust * precision;
-        information.add(end_point_jacobian(Eigen::Vector2d::UnitX(), rotated_m), -offset_m.x(), weight);
-        information.add(end_point_jacobian(Eigen::Vector2d::UnitY(), rotated_m), -offset_m.y(), weight);
+        information.add(end_point_jacobian({1.0, 0.0}, rotated_m), -offset_m[0], weight);
+        information.add(end_point_jacobian({0.0, 1.0}, rotated_m), -offset_m[1], weight);
       }
     }
     if (associations == 0) return {prior, 0, 0.0};
     const double tempered = params.gamma / static_cast<double>(associations);
     const Eigen::Vector3d from_prior(result.belief.pose.x_m - prior.pose.x_m, result.belief.pose.y_m - prior.pose.y_m,
                                      angle_between_rad(prior.pose.yaw_rad, result.belief.pose.yaw_rad));
-    // The Gauss-Newton step counted from the prior, which needs no inverse of the prior's covariance.
-    result.belief.covariance = updated_covariance(prior.covariance, tempered * information.matrix);
+    Eigen::Matrix3d tempered_information;
+    for (int i = 0; i < 9; ++i) tempered_information(i) = tempered * information.matrix(i);
+    result.belief.covariance = updated_covariance(prior.covariance, tempered_information);
     const Eigen::Vector3d step =
-        result.belief.covariance * (tempered * (information.matrix * from_prior + information.vector));
-    result.belief.pose = {prior.pose.x_m + step.x(), prior.pose.y_m + step.y(),
-                          wrap_angle_rad(prior.pose.yaw_rad + step.z())};
+        gauss_newton_step(result.belief.covariance, information.matrix, information.vector, from_prior, tempered);
+    result.belief.pose = {prior.pose.x_m + step[0], prior.pose.y_m + step[1],
+                          wrap_angle_rad(prior.pose.yaw_rad + step[2])};
     result.associations = associations;
     result.residual_rms_m = std::sqrt(squares_m2 / static_cast<double>(associations));
   }

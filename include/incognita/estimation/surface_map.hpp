@@ -38,7 +38,7 @@ struct Surface {
   /// True when a beam of this direction looks at the side that this surface shows. Beams along a wall from its left
   /// and from its right differ by nearly pi and still see one side, so the normal decides where there is one.
   [[nodiscard]] bool faces(const Point<Dim>& direction) const {
-    return planar ? normal.dot(direction) < 0.0 : view.dot(direction) > 0.0;
+    return planar ? dot(normal, direction) < 0.0 : dot(view, direction) > 0.0;
   }
 };
 
@@ -83,7 +83,7 @@ class SurfaceMap {
   /// reach. Normals are brought up to date by refresh_normals.
   void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
     const Index<Dim> index = slots_.lattice().index_of(point_m);
-    if (!slots_.contains(index)) slots_.grow_to_include({index, (index.array() + 1).matrix()});
+    if (!slots_.contains(index)) slots_.grow_to_include(box_of_cell<Dim>(index));
     std::int32_t& slot = slots_[slots_.offset_of(index)];
     if (slot < 0) {
       slot = static_cast<std::int32_t>(cells_.size());

@@ -21,7 +21,7 @@ namespace incognita {
 
 /// A path from the robot to a place from which a frontier is seen.
 struct Candidate {
-  Eigen::Vector2d frontier_m = Eigen::Vector2d::Zero();  ///< a cell of the frontier, near its middle
+  Eigen::Vector2d frontier_m{0.0, 0.0};  ///< a cell of the frontier, near its middle
   std::vector<Index<2>> sought;                          ///< the unknown cells beside the frontier
   Polyline path;                                         ///< from the robot to the goal
   double gain_nats = 0.0;  ///< what the path is predicted to tell; BIG with a behavioral entropy
@@ -52,7 +52,7 @@ struct Candidate {
     for (int dx = -reach; dx <= reach; ++dx) {
       const int distance2 = dx * dx + dy * dy;
       if (distance2 > best_distance2) continue;
-      const Index<2> index = target + Index<2>(dx, dy);
+      const Index<2> index(target[0] + dx, target[1] + dy);
       if (!field.reaches(index)) continue;
       const float cost_m = field.cost_m(index);
       if (distance2 == best_distance2 && cost_m >= best_cost_m) continue;
@@ -70,14 +70,15 @@ struct Candidate {
   std::vector<Index<2>> unknown;
   for (const Index<2>& cell : frontier.cells) {
     for (const Index<2>& step : {Index<2>(1, 0), Index<2>(-1, 0), Index<2>(0, 1), Index<2>(0, -1)}) {
-      if (occupancy.value(cell + step) == Occupancy::unknown) unknown.push_back(cell + step);
+      const Index<2> beside = sum(cell, step);
+      if (occupancy.value(beside) == Occupancy::unknown) unknown.push_back(beside);
     }
   }
   const auto before = [](const Index<2>& a, const Index<2>& b) {
     return a.y() != b.y() ? a.y() < b.y() : a.x() < b.x();
   };
   std::sort(unknown.begin(), unknown.end(), before);
-  unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
+  unknown.erase(std::unique(unknown.begin(), unknown.end(), equal<Index<2>>), unknown.end());
   return unknown;
 }
 

@@ -142,7 +142,7 @@ class Explorer {
     if (decision_.chosen() == nullptr) return {};
     const Eigen::Vector2d position = filter_.belief().pose.position();
     if (retreats_from_) {
-      if ((position - *retreats_from_).norm() < params_.retreat_distance_m) {
+      if (distance(position, *retreats_from_) < params_.retreat_distance_m) {
         return guard_command(retreat_command(scan, params_.guard.robot_radius_m, params_.retreat), scan, params_.guard);
       }
       retreats_from_.reset();
@@ -181,7 +181,7 @@ class Explorer {
     const Eigen::Vector2d to = filter_.belief().pose.position();
     const Eigen::Vector2d from = trail_.empty() ? to : map_.lattice().center_m(trail_.back());
     traverse<2>(map_.lattice(), from, to, [&](const Index<2>& cell) {
-      if (trail_.empty() || trail_.back() != cell) trail_.push_back(cell);
+      if (trail_.empty() || !equal(trail_.back(), cell)) trail_.push_back(cell);
     });
   }
 
@@ -250,8 +250,8 @@ class Explorer {
   /// Prediction must not grow the map: every pose of a path lies in the map's box already, its beams within range of it.
   void reserve_reach() {
     const IndexBox<2>& box = reached_;
-    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(params_.gain.range_max_m + 2.0 * map_.resolution_m());
-    map_.reserve({map_.lattice().center_m(box.lower) - margin, map_.lattice().center_m(box.upper) + margin});
+    const Box<Eigen::Vector2d> reached_m{map_.lattice().center_m(box.lower), map_.lattice().center_m(box.upper)};
+    map_.reserve(reached_m.padded(params_.gain.range_max_m + 2.0 * map_.resolution_m()));
   }
 
   /// A candidate for each frontier that can be seen from a reachable place, cheapest to reach first.

@@ -83,17 +83,18 @@ void predict_scan(const Eigen::Vector2d& position, float blocked_above, GainWork
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     const Eigen::Vector2d direction = scan.direction(beam);
     scan.set_range_m(beam, scan.range_max_m());
-    traverse<2>(lattice, position, position + direction * scan.range_max_m(), [&](const Index<2>& index) {
+    const Eigen::Vector2d end_m = sum(position, scaled(direction, scan.range_max_m()));
+    traverse<2>(lattice, position, end_m, [&](const Index<2>& index) {
       const float log_odds = overlay.log_odds(index);
       if (!(log_odds > blocked_above)) return true;
       // The reading that puts the hit in the middle of the beam's way through the cell.
       const RayInterval interval = ray_through_cell(lattice, index, position, direction);
       const double range_m = 0.5 * (interval.enter_m + interval.leave_m) - push_m;
-      const Eigen::Vector2d to_cell = lattice.center_m(index) - position;
-      const double distance_m = to_cell.norm();
+      const Eigen::Vector2d to_cell = difference(lattice.center_m(index), position);
+      const double distance_m = norm(to_cell);
       if (range_m > 0.0 && range_m < scan.range_max_m() && distance_m > 0.0) {
         scan.set_range_m(beam, range_m);
-        workspace.hits.push_back({to_cell / distance_m, range_m + push_m - distance_m,
+        workspace.hits.push_back({{to_cell[0] / distance_m, to_cell[1] / distance_m}, range_m + push_m - distance_m,
                                   probability_of_log_odds(static_cast<double>(log_odds))});
       } else {
         scan.set_range_m(beam, 0.0);  // the cell is too near to be measured: the beam is left out
@@ -115,14 +116,14 @@ template <CellPolicy Cell, class Filter>
   workspace.overlay.reset(map);
   PoseBelief belief = filter.belief();
   const auto drive_and_scan = [&](const Eigen::Vector2d& to) {
-    const Eigen::Vector2d step = to - belief.pose.position();
-    const double duration_s = step.norm() / params.speed_m_per_s;
-    const Pose2 next{to.x(), to.y(), duration_s > 0.0 ? std::atan2(step.y(), step.x()) : belief.pose.yaw_rad};
+    const Eigen::Vector2d step = difference(to, belief.pose.position());
+    const double duration_s = norm(step) / params.speed_m_per_s;
+    const Pose2 next{to[0], to[1], duration_s > 0.0 ? std::atan2(step[1], step[0]) : belief.pose.yaw_rad};
     belief = filter.imagine_motion(belief, belief.pose.inverse() * next, duration_s);
     predict_scan(to, params.blocked_above, workspace);
     const double scan_count = std::max(1.0, duration_s * params.scan_rate_hz);
     belief = filter.imagine_scan(belief, workspace.hits, workspace.scan.size(), scan_count);
-    workspace.overlay.update(workspace.scan, Pose2{to.x(), to.y(), 0.0}, belief.covariance.topLeftCorner<2, 2>());
+    workspace.overlay.update(workspace.scan, Pose2{to[0], to[1], 0.0}, position_covariance(belief.covariance));
   };
 
   const std::vector<Eigen::Vector2d> poses = resample_path(path, params.pose_spacing_m);

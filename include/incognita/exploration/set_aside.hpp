@@ -12,8 +12,8 @@ namespace incognita {
 
 /// How many cells within `radius_m` of a point are known (cells outside of the box are not).
 [[nodiscard]] inline int count_known(const OccupancyGrid<2>& occupancy, const Eigen::Vector2d& center_m, double radius_m) {
-  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(radius_m);
-  const IndexBox<2> box = occupancy.lattice().cells_of({center_m - reach, center_m + reach});
+  const Box<Eigen::Vector2d> around{center_m, center_m};
+  const IndexBox<2> box = occupancy.lattice().cells_of(around.padded(radius_m));
   int known = 0;
   for (int y = box.lower.y(); y < box.upper.y(); ++y) {
     for (int x = box.lower.x(); x < box.upper.x(); ++x) {
@@ -49,7 +49,7 @@ class SetAsidePlaces {
 
   [[nodiscard]] bool contains(const Eigen::Vector2d& place_m, const OccupancyGrid<2>& occupancy) const {
     for (const Place& place : places_) {
-      if ((place.position_m - place_m).norm() > params_.radius_m) continue;
+      if (distance(place.position_m, place_m) > params_.radius_m) continue;
       const int known = count_known(occupancy, place.position_m, params_.watch_radius_m);
       if (std::abs(known - place.known_cells) < params_.change_cells_min) return true;
     }

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "incognita/geometry/vector.hpp"
+
 namespace incognita {
 
 /// The set {x : lower <= x < upper}, per axis. `Vector` is an Eigen column of coordinates (metres) or of cell indices.
@@ -19,7 +21,29 @@ struct Box {
     return false;
   }
 
-  [[nodiscard]] Vector extent() const { return upper - lower; }
+  [[nodiscard]] Vector extent() const { return difference(upper, lower); }
+
+  friend bool operator==(const Box& a, const Box& b) {
+    return equal(a.lower, b.lower) && equal(a.upper, b.upper);
+  }
+
+  /// This box with `margin` more on every side.
+  [[nodiscard]] Box padded(typename Vector::Scalar margin) const {
+    Box larger = *this;
+    for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
+      larger.lower[axis] -= margin;
+      larger.upper[axis] += margin;
+    }
+    return larger;
+  }
+
+  /// Moves the faces as little as makes `x` lie between them or on one.
+  void stretch_to(const Vector& x) {
+    for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
+      if (x[axis] < lower[axis]) lower[axis] = x[axis];
+      if (x[axis] > upper[axis]) upper[axis] = x[axis];
+    }
+  }
 
   [[nodiscard]] bool contains(const Vector& x) const {
     for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
@@ -43,7 +67,10 @@ template <class Vector>
 [[nodiscard]] Box<Vector> enclosing_box(const Box<Vector>& a, const Box<Vector>& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
-  return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
+  Box<Vector> both = a;
+  both.stretch_to(b.lower);
+  both.stretch_to(b.upper);
+  return both;
 }
 
 }  // namespace incognita

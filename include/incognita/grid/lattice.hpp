@@ -22,6 +22,14 @@ using Index = Eigen::Matrix<int, Dim, 1>;
 template <int Dim>
 using IndexBox = Box<Index<Dim>>;
 
+/// The box that holds one cell.
+template <int Dim>
+[[nodiscard]] IndexBox<Dim> box_of_cell(const Index<Dim>& index) {
+  IndexBox<Dim> box{index, index};
+  for (int axis = 0; axis < Dim; ++axis) ++box.upper[axis];
+  return box;
+}
+
 /// An endless lattice of square (cubic) cells: cell i covers [origin + i res, origin + (i + 1) res) on each axis.
 template <int Dim>
 class Lattice {
@@ -41,7 +49,9 @@ class Lattice {
   [[nodiscard]] const Point<Dim>& origin_m() const { return origin_m_; }
 
   /// Lattice coordinates: cell i covers [i, i + 1).
-  [[nodiscard]] Point<Dim> to_cells(const Point<Dim>& point_m) const { return (point_m - origin_m_) * per_m_; }
+  [[nodiscard]] Point<Dim> to_cells(const Point<Dim>& point_m) const {
+    return scaled(difference(point_m, origin_m_), per_m_);
+  }
 
   /// The cell that holds a point. The point must lie within 2^31 cells of the origin.
   [[nodiscard]] Index<Dim> index_of(const Point<Dim>& point_m) const {
@@ -60,7 +70,9 @@ class Lattice {
 
   /// The smallest box of cells that holds a box of points (upper face included).
   [[nodiscard]] IndexBox<Dim> cells_of(const Box<Point<Dim>>& box_m) const {
-    return {index_of(box_m.lower), (index_of(box_m.upper).array() + 1).matrix()};
+    IndexBox<Dim> cells{index_of(box_m.lower), index_of(box_m.upper)};
+    for (int axis = 0; axis < Dim; ++axis) ++cells.upper[axis];
+    return cells;
   }
 
  private:

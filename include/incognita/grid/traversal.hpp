@@ -19,8 +19,12 @@ void traverse(const Lattice<Dim>& lattice, const Point<Dim>& from_m, const Point
   constexpr double never = std::numeric_limits<double>::infinity();
   const Point<Dim> from = lattice.to_cells(from_m);
   const Point<Dim> to = lattice.to_cells(to_m);
-  Index<Dim> index = from.array().floor().template cast<int>();
-  const Index<Dim> last = to.array().floor().template cast<int>();
+  Index<Dim> index;
+  Index<Dim> last;
+  for (int axis = 0; axis < Dim; ++axis) {
+    index[axis] = static_cast<int>(std::floor(from[axis]));
+    last[axis] = static_cast<int>(std::floor(to[axis]));
+  }
 
   // The segment parameter of the next crossing is first + crossed * period: computed anew from the integer count at
   // each step, so rounding does not add up along the ray.

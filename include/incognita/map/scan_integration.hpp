@@ -78,11 +78,9 @@ template <int Dim>
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     if (scan.reading(beam) == Reading::invalid) continue;
     const Point<Dim> end = origin + rotation * scan.end_point_m(beam, push_m);
-    reach.lower = reach.lower.cwiseMin(end);
-    reach.upper = reach.upper.cwiseMax(end);
+    reach.stretch_to(end);
   }
-  const IndexBox<Dim> cells = lattice.cells_of(reach);
-  return {(cells.lower.array() - 1).matrix(), (cells.upper.array() + 1).matrix()};
+  return lattice.cells_of(reach).padded(1);
 }
 
 }  // namespace incognita

@@ -11,6 +11,7 @@
 
 #include "incognita/core/angles.hpp"
 #include "incognita/geometry/pose2.hpp"
+#include "incognita/geometry/vector.hpp"
 
 namespace incognita {
 
@@ -19,7 +20,7 @@ namespace incognita {
 class TrajectoryError {
  public:
   void add(const Pose2& estimated, const Pose2& truth) {
-    const double distance_m = (estimated.position() - truth.position()).norm();
+    const double distance_m = distance(estimated.position(), truth.position());
     const double turn_rad = angle_between_rad(truth.yaw_rad, estimated.yaw_rad);
     distances_m_ += distance_m;
     squared_distances_m2_ += distance_m * distance_m;
@@ -75,25 +76,25 @@ inline void require_equal_sizes(const char* where, std::size_t a, std::size_t b)
   detail::require_equal_sizes("align_rigidly", estimated.size(), truth.size());
   if (estimated.empty()) throw std::invalid_argument("align_rigidly: the trajectories are empty");
   const double per_pose = 1.0 / static_cast<double>(estimated.size());
-  Eigen::Vector2d estimated_mean = Eigen::Vector2d::Zero();
-  Eigen::Vector2d true_mean = Eigen::Vector2d::Zero();
+  Eigen::Vector2d estimated_mean(0.0, 0.0);
+  Eigen::Vector2d true_mean(0.0, 0.0);
   for (std::size_t i = 0; i < estimated.size(); ++i) {
-    estimated_mean += per_pose * estimated[i].position();
-    true_mean += per_pose * truth[i].position();
+    estimated_mean = sum(estimated_mean, scaled(estimated[i].position(), per_pose));
+    true_mean = sum(true_mean, scaled(truth[i].position(), per_pose));
   }
   // In the plane the best rotation is the argument of sum conj(estimated) true, as complex numbers.
   double along = 0.0;
   double across = 0.0;
   for (std::size_t i = 0; i < estimated.size(); ++i) {
-    const Eigen::Vector2d a = estimated[i].position() - estimated_mean;
-    const Eigen::Vector2d b = truth[i].position() - true_mean;
-    along += a.dot(b);
-    across += a.x() * b.y() - a.y() * b.x();
+    const Eigen::Vector2d a = difference(estimated[i].position(), estimated_mean);
+    const Eigen::Vector2d b = difference(truth[i].position(), true_mean);
+    along += dot(a, b);
+    across += a[0] * b[1] - a[1] * b[0];
   }
   Pose2 T_true_estimated{0.0, 0.0, std::atan2(across, along)};
-  const Eigen::Vector2d shift = true_mean - T_true_estimated * estimated_mean;
-  T_true_estimated.x_m = shift.x();
-  T_true_estimated.y_m = shift.y();
+  const Eigen::Vector2d shift = difference(true_mean, T_true_estimated * estimated_mean);
+  T_true_estimated.x_m = shift[0];
+  T_true_estimated.y_m = shift[1];
   return T_true_estimated;
 }
 

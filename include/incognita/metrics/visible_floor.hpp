@@ -3,13 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "incognita/core/error.hpp"
@@ -32,16 +32,16 @@ template <class Obstacles>
           "the clearance in m at the start", obstacles.clearance_m(start_m),
           "at least the radius of the disc");
 
-  const Index<2> first = obstacles.lattice().index_of(start_m).array() - 1;
+  const Index<2> middle = obstacles.lattice().index_of(start_m);
   double nearest_m = std::numeric_limits<double>::infinity();
   Index<2> nearest;
   for (int i = 0; i < 9; ++i) {
-    const Index<2> cell = first + Index<2>(i % 3, i / 3);
-    const Point<2> way_m = obstacles.lattice().center_m(cell) - start_m;
-    const double length_m = way_m.norm();
+    const Index<2> cell(middle[0] + i % 3 - 1, middle[1] + i / 3 - 1);
+    const Point<2> center_m = obstacles.lattice().center_m(cell);
+    const Point<2> way_m = difference(center_m, start_m);
+    const double length_m = norm(way_m);
     const auto position_at = [&](double s_m) -> Point<2> {
-      return s_m < length_m ? Point<2>(start_m + way_m * (s_m / length_m))
-                            : obstacles.lattice().center_m(cell);
+      return s_m < length_m ? sum(start_m, scaled(way_m, s_m / length_m)) : center_m;
     };
     if (length_m >= nearest_m || !obstacles.disc_is_clear(position_at(length_m), radius_m)) continue;
     if (clear_length_m(obstacles, radius_m, length_m, position_at) < length_m) continue;
@@ -66,29 +66,33 @@ enum class FloorView : std::uint8_t {
 };
 
 /// Boxes of cells, for each hidden region those that all light into it passes.
-using Portals = std::vector<std::vector<IndexBox<2>>>;
+template <int Dim>
+using Portals = std::vector<std::vector<IndexBox<Dim>>>;
 
 /// Light enters a region of hidden cells only through the cells around it that are not hidden: these, put
 /// together in square tiles. Regions are joined by corners, as lines of sight pass from cell to cell.
-template <class View>
-[[nodiscard]] Portals portals_of(const Grid<View, 2>& cells, const Components<2>& hidden) {
+template <class View, int Dim>
+[[nodiscard]] Portals<Dim> portals_of(const Grid<View, Dim>& cells, const Components<Dim>& hidden) {
   constexpr int tile_cells = 16;
-  const std::vector<Index<2>> steps = neighbor_steps<2>(Adjacency::corners);
-  std::vector<std::map<std::pair<int, int>, IndexBox<2>>> tiles(hidden.sizes.size());
+  const std::vector<Index<Dim>> steps = neighbor_steps<Dim>(Adjacency::corners);
+  std::vector<std::map<std::array<int, static_cast<std::size_t>(Dim)>, IndexBox<Dim>>> tiles(hidden.sizes.size());
   for (Offset cell = 0; cell < static_cast<Offset>(cells.size()); ++cell) {
     if (cells[cell] != View::hidden) continue;
-    for (const Index<2>& step : steps) {
-      const Index<2> beside = cells.index_at(cell) + step;
+    for (const Index<Dim>& step : steps) {
+      const Index<Dim> beside = sum(cells.index_at(cell), step);
       const View view = cells.value(beside);
       if (view != View::seen && view != View::position) continue;
-      const Index<2> place = (beside - cells.box().lower) / tile_cells;
-      IndexBox<2>& box = tiles[static_cast<std::size_t>(hidden.labels[cell])][{place.x(), place.y()}];
-      box = enclosing_box(box, {beside, (beside.array() + 1).matrix()});
+      std::array<int, static_cast<std::size_t>(Dim)> tile;
+      for (int axis = 0; axis < Dim; ++axis) {
+        tile[static_cast<std::size_t>(axis)] = (beside[axis] - cells.box().lower[axis]) / tile_cells;
+      }
+      IndexBox<Dim>& box = tiles[static_cast<std::size_t>(hidden.labels[cell])][tile];
+      box = enclosing_box(box, box_of_cell<Dim>(beside));
     }
   }
-  Portals portals(tiles.size());
+  Portals<Dim> portals(tiles.size());
   for (std::size_t region = 0; region < tiles.size(); ++region) {
-    for (const auto& [place, box] : tiles[region]) portals[region].push_back(box);
+    for (const auto& [tile, box] : tiles[region]) portals[region].push_back(box);
   }
   return portals;
 }
@@ -133,15 +137,17 @@ template <class Obstacles>
   // The rest sees a position only through a portal of its region.
   const Components<2> hidden = connected_components(cells, Adjacency::corners,
                                                     [](FloorView cell) { return cell == FloorView::hidden; });
-  const detail::Portals portals = detail::portals_of(cells, hidden);
+  const detail::Portals<2> portals = detail::portals_of(cells, hidden);
   const double range_cells = range_max_m / obstacles.resolution_m();
   for (Offset cell = 0; cell < static_cast<Offset>(cells.size()); ++cell) {
     visible[cell] = cells[cell] == FloorView::seen || cells[cell] == FloorView::position ? 1 : 0;
     if (cells[cell] != FloorView::hidden) continue;
     const Index<2> index = cells.index_at(cell);
     for (const IndexBox<2>& portal : portals[static_cast<std::size_t>(hidden.labels[cell])]) {
-      const Index<2> nearest = index.cwiseMax(portal.lower).cwiseMin((portal.upper.array() - 1).matrix());
-      if ((nearest - index).cast<double>().norm() > range_cells + 1.0) continue;
+      const auto gap = [&](int axis) {
+        return static_cast<double>(std::clamp(index[axis], portal.lower[axis], portal.upper[axis] - 1) - index[axis]);
+      };
+      if (norm(Point<2>(gap(0), gap(1))) > range_cells + 1.0) continue;
       view.visit_visible_toward(cells, index, portal, range_max_m, blocks, [&](const Index<2>& other) {
         if (cells.value(other) != FloorView::position) return true;
         visible[cell] = 1;

@@ -11,6 +11,7 @@
 
 #include "incognita/core/error.hpp"
 #include "incognita/geometry/twist2.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/sensor/scan.hpp"
 
 namespace incognita {
@@ -45,19 +46,19 @@ struct CollisionGuardParams {
                                                   double radius_m) {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (std::abs(curvature_per_m) < 1e-5) {
-    const double ahead_m = obstacle_m.x();
-    if (ahead_m <= 0.0 || std::abs(obstacle_m.y()) >= radius_m) return never;
-    return std::max(0.0, ahead_m - std::sqrt(radius_m * radius_m - obstacle_m.y() * obstacle_m.y()));
+    const double ahead_m = obstacle_m[0];
+    if (ahead_m <= 0.0 || std::abs(obstacle_m[1]) >= radius_m) return never;
+    return std::max(0.0, ahead_m - std::sqrt(radius_m * radius_m - obstacle_m[1] * obstacle_m[1]));
   }
   // Mirrored, so that the circle turns to the left: its centre is (0, turn_m), where the origin lies at
   // -pi/2.
   const double turn_m = 1.0 / std::abs(curvature_per_m);
-  const double across_m = curvature_per_m > 0.0 ? obstacle_m.y() : -obstacle_m.y();
-  const double from_center_m = std::hypot(obstacle_m.x(), across_m - turn_m);
+  const double across_m = curvature_per_m > 0.0 ? obstacle_m[1] : -obstacle_m[1];
+  const double from_center_m = std::hypot(obstacle_m[0], across_m - turn_m);
   const double cosine = (turn_m * turn_m + from_center_m * from_center_m - radius_m * radius_m) /
                         (2.0 * turn_m * from_center_m);
   if (!(cosine < 1.0)) return never;
-  double along_rad = std::atan2(across_m - turn_m, obstacle_m.x()) + std::numbers::pi / 2.0;
+  double along_rad = std::atan2(across_m - turn_m, obstacle_m[0]) + std::numbers::pi / 2.0;
   if (along_rad < 0.0) along_rad += 2.0 * std::numbers::pi;
   return turn_m * std::max(0.0, along_rad - std::acos(std::max(-1.0, cosine)));
 }
@@ -101,7 +102,7 @@ struct CollisionGuardParams {
     if (scan.range_m(beam) > keep_m + stopping_distance_m(wanted_m_per_s)) continue;
     const double range_m = smoothed_range_m(scan, beam);
     nearest_m = std::min(nearest_m, range_m);
-    obstacles_m.push_back(scan.direction(beam) * range_m);
+    obstacles_m.push_back(scaled(scan.direction(beam), range_m));
   }
   const double creep_keep_m =
       std::clamp(nearest_m, params.robot_radius_m, params.robot_radius_m + params.creep_margin_m);
@@ -112,9 +113,9 @@ struct CollisionGuardParams {
     const double curvature_per_m = heading * command.turn_rate_rad_per_s / speed_m_per_s;
     const double stopping_m = stopping_distance_m(speed_m_per_s);
     for (const Eigen::Vector2d& obstacle_m : obstacles_m) {
-      const double range_m = obstacle_m.norm();
+      const double range_m = norm(obstacle_m);
       if (range_m > radius_m + stopping_m) continue;
-      const Eigen::Vector2d ahead_m(heading * obstacle_m.x(), obstacle_m.y());
+      const Eigen::Vector2d ahead_m(heading * obstacle_m[0], obstacle_m[1]);
       if (distance_to_contact_m(ahead_m, curvature_per_m, std::min(range_m, radius_m)) < stopping_m)
         return false;
     }

@@ -13,6 +13,7 @@
 #include "incognita/core/error.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/twist2.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/planning/polyline.hpp"
 
 namespace incognita {
@@ -64,7 +65,7 @@ class PathFollower {
     if (finished_) return {};
     const Eigen::Vector2d position = T_map_robot.position();
     progress_m_ = path_.nearest_along_m(position, progress_m_, progress_m_ + params_.lookahead_m);
-    const double end_distance_m = (path_.points_m().back() - position).norm();
+    const double end_distance_m = distance(path_.points_m().back(), position);
     if (path_.length_m() - progress_m_ <= params_.goal_tolerance_m &&
         end_distance_m <= params_.goal_tolerance_m) {
       finished_ = true;
@@ -105,9 +106,9 @@ class PathFollower {
   [[nodiscard]] Target aim(const Pose2& T_map_robot) const {
     for (double ahead_m = params_.lookahead_m;; ahead_m *= 0.8) {
       ahead_m = std::max(ahead_m, params_.lookahead_min_m);
-      const Eigen::Vector2d to_target = path_.point_at(progress_m_ + ahead_m) - T_map_robot.position();
-      const double bearing_rad = std::atan2(to_target.y(), to_target.x());
-      const Target target{to_target.norm(), angle_between_rad(T_map_robot.yaw_rad, bearing_rad)};
+      const Eigen::Vector2d to_target = difference(path_.point_at(progress_m_ + ahead_m), T_map_robot.position());
+      const double bearing_rad = std::atan2(to_target[1], to_target[0]);
+      const Target target{norm(to_target), angle_between_rad(T_map_robot.yaw_rad, bearing_rad)};
       const double swing_m = 0.5 * target.distance_m * std::tan(0.5 * std::abs(target.aside_rad));
       if (ahead_m == params_.lookahead_min_m ||
           std::max(swing_m, corner_beside_chord_m(ahead_m)) <= params_.deviation_max_m) {
@@ -119,13 +120,13 @@ class PathFollower {
   /// How far the path up to ahead_m further along leaves the straight line to there.
   [[nodiscard]] double corner_beside_chord_m(double ahead_m) const {
     const Eigen::Vector2d from = path_.point_at(progress_m_);
-    const Eigen::Vector2d chord = path_.point_at(progress_m_ + ahead_m) - from;
+    const Eigen::Vector2d chord = difference(path_.point_at(progress_m_ + ahead_m), from);
     double deviation_m = 0.0;
     for (std::size_t i = path_.corner_after(progress_m_);
          i < path_.points_m().size() && path_.arc_m(i) < progress_m_ + ahead_m; ++i) {
-      const Eigen::Vector2d corner = path_.points_m()[i] - from;
-      const double share = std::clamp(corner.dot(chord) / std::max(chord.squaredNorm(), 1e-12), 0.0, 1.0);
-      deviation_m = std::max(deviation_m, (corner - share * chord).norm());
+      const Eigen::Vector2d corner = difference(path_.points_m()[i], from);
+      const double share = std::clamp(dot(corner, chord) / std::max(dot(chord, chord), 1e-12), 0.0, 1.0);
+      deviation_m = std::max(deviation_m, distance(corner, scaled(chord, share)));
     }
     return deviation_m;
   }
@@ -143,9 +144,9 @@ class PathFollower {
       if (2.0 * params_.deceleration_m_per_s2 * before_m > speed_m_per_s * speed_m_per_s) break;
       double corner_m_per_s = crawl_m_per_s;
       if (i > 0 && !is_end) {
-        const Eigen::Vector2d in = points_m[i] - points_m[i - 1];
-        const Eigen::Vector2d out = points_m[i + 1] - points_m[i];
-        const double turn_rad = std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+        const Eigen::Vector2d in = difference(points_m[i], points_m[i - 1]);
+        const Eigen::Vector2d out = difference(points_m[i + 1], points_m[i]);
+        const double turn_rad = std::abs(std::atan2(in[0] * out[1] - in[1] * out[0], dot(in, out)));
         const double allowed = 1.0 - turn_rad / params_.turn_in_place_rad;
         corner_m_per_s = std::max(crawl_m_per_s, allowed * params_.speed_max_m_per_s);
       }

@@ -35,14 +35,15 @@ namespace incognita {
     return proper;
   });
   if (!proper) return std::numeric_limits<double>::infinity();
-  const double length_m = (to_m - from_m).norm();
+  const Eigen::Vector2d way_m = difference(to_m, from_m);
+  const double length_m = norm(way_m);
   const double samples = std::max(1.0, std::ceil(2.0 * length_m / field.lattice().resolution_m()));
-  double sum = 0.0;
+  double cost_per_m = 0.0;
   for (double sample = 0.5; sample < samples; sample += 1.0) {
-    const Eigen::Vector2d at_m = from_m + (to_m - from_m) * (sample / samples);
-    sum += static_cast<double>(field.cost_per_m(field.lattice().index_of(at_m)));
+    const Eigen::Vector2d at_m = sum(from_m, scaled(way_m, sample / samples));
+    cost_per_m += static_cast<double>(field.cost_per_m(field.lattice().index_of(at_m)));
   }
-  return length_m * sum / samples;
+  return length_m * cost_per_m / samples;
 }
 
 /// The path with fewer corners: straight wherever that keeps the robot's clearance and costs at most 1 +
@@ -85,16 +86,17 @@ template <class IsOccupied>
     const std::size_t corner = path.corner_after(along_m);
     along_m = std::min(along_m + piece_m, std::max(along_m, path.arc_m(corner)));
     const Eigen::Vector2d end_m = path.point_at(along_m);
-    const Eigen::Vector2d piece = end_m - begin_m;
-    const double length2 = piece.squaredNorm();
-    const Index<2> lower = lattice.index_of((begin_m.cwiseMin(end_m).array() - reach_m).matrix());
-    const Index<2> upper = lattice.index_of((begin_m.cwiseMax(end_m).array() + reach_m).matrix());
-    for (int y = lower.y(); y <= upper.y(); ++y) {
-      for (int x = lower.x(); x <= upper.x(); ++x) {
-        const Eigen::Vector2d offset = lattice.center_m({x, y}) - begin_m;
-        const double share = length2 > 0.0 ? std::clamp(offset.dot(piece) / length2, 0.0, 1.0) : 0.0;
-        if ((offset - share * piece).squaredNorm() < radius_m * radius_m && is_occupied(Index<2>(x, y)))
-          return false;
+    const Eigen::Vector2d piece = difference(end_m, begin_m);
+    const double length2 = dot(piece, piece);
+    Box<Point<2>> around{begin_m, begin_m};
+    around.stretch_to(end_m);
+    const IndexBox<2> cells = lattice.cells_of(around.padded(reach_m));
+    for (int y = cells.lower[1]; y < cells.upper[1]; ++y) {
+      for (int x = cells.lower[0]; x < cells.upper[0]; ++x) {
+        const Eigen::Vector2d offset = difference(lattice.center_m({x, y}), begin_m);
+        const double share = length2 > 0.0 ? std::clamp(dot(offset, piece) / length2, 0.0, 1.0) : 0.0;
+        const Eigen::Vector2d aside = difference(offset, scaled(piece, share));
+        if (dot(aside, aside) < radius_m * radius_m && is_occupied(Index<2>(x, y))) return false;
       }
     }
     begin_m = end_m;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "incognita/core/error.hpp"
+#include "incognita/geometry/vector.hpp"
 
 namespace incognita {
 
@@ -21,7 +22,7 @@ class Polyline {
   explicit Polyline(std::vector<Eigen::Vector2d> points_m) : points_m_(std::move(points_m)) {
     arc_m_.reserve(points_m_.size());
     for (std::size_t i = 0; i < points_m_.size(); ++i) {
-      arc_m_.push_back(i == 0 ? 0.0 : arc_m_.back() + (points_m_[i] - points_m_[i - 1]).norm());
+      arc_m_.push_back(i == 0 ? 0.0 : arc_m_.back() + distance(points_m_[i], points_m_[i - 1]));
     }
   }
 
@@ -43,24 +44,28 @@ class Polyline {
     const std::size_t end = corner_after(along_m);
     if (end == 0 || along_m >= arc_m_[end]) return points_m_[end];
     const double share = std::max(0.0, along_m - arc_m_[end - 1]) / (arc_m_[end] - arc_m_[end - 1]);
-    return points_m_[end - 1] + share * (points_m_[end] - points_m_[end - 1]);
+    return sum(points_m_[end - 1], scaled(difference(points_m_[end], points_m_[end - 1]), share));
   }
 
   /// How far along the path the place nearest to `point_m` lies, between `from_m` and `to_m` along it; the
   /// first of equals. The path must not be empty. O(corners between).
   [[nodiscard]] double nearest_along_m(const Eigen::Vector2d& point_m, double from_m, double to_m) const {
     double best_along_m = std::clamp(from_m, 0.0, length_m());
-    double best_distance2 = (point_at(best_along_m) - point_m).squaredNorm();
+    const auto distance2_at = [&](double along_m) {
+      const Eigen::Vector2d offset = difference(point_at(along_m), point_m);
+      return dot(offset, offset);
+    };
+    double best_distance2 = distance2_at(best_along_m);
     for (std::size_t end = corner_after(best_along_m); end > 0 && end < points_m_.size(); ++end) {
       if (arc_m_[end - 1] > to_m) break;
-      const Eigen::Vector2d segment = points_m_[end] - points_m_[end - 1];
+      const Eigen::Vector2d segment = difference(points_m_[end], points_m_[end - 1]);
       const double length_m = arc_m_[end] - arc_m_[end - 1];
       if (!(length_m > 0.0)) continue;
-      const double ahead_m = (point_m - points_m_[end - 1]).dot(segment) / length_m;
+      const double ahead_m = dot(difference(point_m, points_m_[end - 1]), segment) / length_m;
       const double low_m = std::max(arc_m_[end - 1], from_m);
       const double high_m = std::max(low_m, std::min(arc_m_[end], to_m));
       const double along_m = std::clamp(arc_m_[end - 1] + ahead_m, low_m, high_m);
-      const double distance2 = (point_at(along_m) - point_m).squaredNorm();
+      const double distance2 = distance2_at(along_m);
       if (distance2 < best_distance2) {
         best_distance2 = distance2;
         best_along_m = along_m;

@@ -13,6 +13,7 @@
 #include "incognita/core/angles.hpp"
 #include "incognita/core/error.hpp"
 #include "incognita/geometry/twist2.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/planning/collision_guard.hpp"
 #include "incognita/sensor/scan.hpp"
 
@@ -48,7 +49,7 @@ struct RetreatParams {
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     if (scan.reading(beam) != Reading::hit || scan.range_m(beam) > robot_radius_m + params.look_m) continue;
     const double range_m = smoothed_range_m(scan, beam);
-    near_m.push_back(scan.direction(beam) * range_m);
+    near_m.push_back(scaled(scan.direction(beam), range_m));
     nearest_m = std::min(nearest_m, range_m);
   }
   double best_free_m = -1.0;
@@ -58,7 +59,7 @@ struct RetreatParams {
     const Eigen::Vector2d ahead(std::cos(turn_rad), std::sin(turn_rad));
     double free_m = params.look_m;
     for (const Eigen::Vector2d& point_m : near_m) {
-      const Eigen::Vector2d seen_m(ahead.dot(point_m), ahead.x() * point_m.y() - ahead.y() * point_m.x());
+      const Eigen::Vector2d seen_m(dot(ahead, point_m), ahead[0] * point_m[1] - ahead[1] * point_m[0]);
       free_m = std::min(free_m, distance_to_contact_m(seen_m, 0.0, nearest_m));
     }
     const bool better = free_m > best_free_m ||

@@ -14,6 +14,7 @@
 
 #include "incognita/core/error.hpp"
 #include "incognita/geometry/box.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/map/occupancy.hpp"
 
 namespace incognita {
@@ -61,19 +62,18 @@ class TravelCostField {
                   const Eigen::Vector2d& start_m, const TravelParams& params = {})
       : start_m_(start_m),
         proper_max_(static_cast<float>(1.0 + params.clearance_weight)),
-        cost_per_m_(occupancy.lattice(), ringed(occupancy.box()), infinite),
+        cost_per_m_(occupancy.lattice(), occupancy.box().padded(1), infinite),
         cost_m_(occupancy.lattice(), cost_per_m_.box(), infinite),
         step_to_(occupancy.lattice(), cost_per_m_.box(), no_step) {
     params.validate();
-    if (!start_m.allFinite()) throw std::invalid_argument("TravelCostField: start_m is not finite");
-    if (occupancy.box().lower != clearance_m.box().lower ||
-        occupancy.box().upper != clearance_m.box().upper) {
+    if (!std::isfinite(start_m[0]) || !std::isfinite(start_m[1])) throw std::invalid_argument("TravelCostField: start_m is not finite");
+    if (occupancy.box() != clearance_m.box()) {
       throw std::invalid_argument("TravelCostField: occupancy and clearance_m differ in their boxes");
     }
+    const IndexBox<2>& box = occupancy.box();
     const Eigen::Vector2d start_cells = occupancy.lattice().to_cells(start_m);
-    if (!Box<Eigen::Vector2d>{occupancy.box().lower.cast<double>(), occupancy.box().upper.cast<double>()}
-             .contains(start_cells)) {
-      return;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!(box.lower[axis] <= start_cells[axis] && start_cells[axis] < box.upper[axis])) return;
     }
     start_ = occupancy.lattice().index_of(start_m);
     rate_cells(occupancy, clearance_m, params);
@@ -100,9 +100,12 @@ class TravelCostField {
     std::vector<Index<2>> cells;
     if (!reaches(goal)) return cells;
     cells.push_back(goal);
-    while (cells.back() != start_) {
-      const auto step = static_cast<std::size_t>(step_to_.value(cells.back()) & step_mask);
-      cells.push_back(cells.back() - Index<2>(step_x[step], step_y[step]));
+    Index<2> cell = goal;
+    while (!equal(cell, start_)) {
+      const auto step = static_cast<std::size_t>(step_to_.value(cell) & step_mask);
+      cell[0] -= step_x[step];
+      cell[1] -= step_y[step];
+      cells.push_back(cell);
     }
     std::reverse(cells.begin(), cells.end());
     return cells;
@@ -120,11 +123,6 @@ class TravelCostField {
   /// Counter-clockwise from +x, so odd steps are diagonal.
   static constexpr std::array<int, 8> step_x{1, 1, 0, -1, -1, -1, 0, 1};
   static constexpr std::array<int, 8> step_y{0, 1, 1, 1, 0, -1, -1, -1};
-
-  /// One ring larger: the ring is never entered, so no step needs to look whether it leaves the grid.
-  [[nodiscard]] static IndexBox<2> ringed(const IndexBox<2>& box) {
-    return {(box.lower.array() - 1).matrix(), (box.upper.array() + 1).matrix()};
-  }
 
   void rate_cells(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m,
                   const TravelParams& params) {
@@ -147,14 +145,12 @@ class TravelCostField {
     const int reach = static_cast<int>(
         std::min(params.escape_radius_m / occupancy.resolution_m(), static_cast<double>(occupancy.size())));
     const IndexBox<2>& box = occupancy.box();
-    const Index<2> lower = (start_.array() - reach).matrix().cwiseMax(box.lower);
-    const Index<2> upper = (start_.array() + reach + 1).matrix().cwiseMin(box.upper);
-    for (int y = lower.y(); y < upper.y(); ++y) {
-      for (int x = lower.x(); x < upper.x(); ++x) {
+    for (int y = std::max(start_[1] - reach, box.lower[1]); y < std::min(start_[1] + reach + 1, box.upper[1]); ++y) {
+      for (int x = std::max(start_[0] - reach, box.lower[0]); x < std::min(start_[0] + reach + 1, box.upper[0]); ++x) {
         const Index<2> index(x, y);
-        const double distance_m = (index - start_).cast<double>().norm() * occupancy.resolution_m();
-        if (distance_m > params.escape_radius_m || is_proper(index)) continue;
-        if (index == start_ || occupancy.value(index) != Occupancy::occupied) escape_.push_back(index);
+        const Eigen::Vector2d offset(x - start_[0], y - start_[1]);
+        if (norm(offset) * occupancy.resolution_m() > params.escape_radius_m || is_proper(index)) continue;
+        if (equal(index, start_) || occupancy.value(index) != Occupancy::occupied) escape_.push_back(index);
       }
     }
     for (const Index<2>& index : escape_) cost_per_m_.set(index, escape);
@@ -213,8 +209,9 @@ class TravelCostField {
   }
 
   Eigen::Vector2d start_m_;
-  Index<2> start_ = Index<2>::Zero();
+  Index<2> start_{0, 0};
   float proper_max_;  ///< no proper cell costs more a metre, every place to escape from does
+  // One ring of cells larger than the belief: it is never entered, so no step needs to look whether it leaves the grid.
   Grid<float, 2> cost_per_m_;
   Grid<float, 2> cost_m_;
   std::vector<Index<2>> escape_;   ///< what may be crossed once, to get away from the start

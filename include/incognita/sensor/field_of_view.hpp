@@ -34,10 +34,11 @@ class FieldOfView {
                             double range_max_m, Blocks&& blocks, Visit&& visit) {
     if (!grid.contains(from) || blocks(grid.value(from)) || !show(visit, from)) return;
     for (int octant = 0; octant < 8; ++octant) {
-      const Index<2> x(1, 0);
-      const Index<2> y(0, 1);
-      const Index<2> ahead = ((octant & 1) != 0 ? y : x) * ((octant & 2) != 0 ? -1 : 1);
-      const Index<2> across = ((octant & 1) != 0 ? x : y) * ((octant & 4) != 0 ? -1 : 1);
+      const bool is_steep = (octant & 1) != 0;
+      const int forward = (octant & 2) != 0 ? -1 : 1;
+      const int sideways = (octant & 4) != 0 ? -1 : 1;
+      const Index<2> ahead(is_steep ? 0 : forward, is_steep ? forward : 0);
+      const Index<2> across(is_steep ? sideways : 0, is_steep ? 0 : sideways);
       const Sector sector = sector_of(from, target, ahead, across);
       if (!(sector.low < sector.high)) continue;
       lit_.assign(1, sector);
@@ -76,10 +77,13 @@ class FieldOfView {
                           const Index<2>& across) {
     const Slope least{-1, 1 << 16};
     const Slope most{(1 << 16) + 1, 1 << 16};
-    const Index<2> a = (box.lower - from).array() - 1;
-    const Index<2> b = box.upper - from;
-    const auto [near, far] = std::minmax({a.dot(ahead), b.dot(ahead)});
-    const auto [low, high] = std::minmax({a.dot(across), b.dot(across)});
+    const auto along = [&](const Index<2>& axis, int x, int y) {
+      return (x - from[0]) * axis[0] + (y - from[1]) * axis[1];
+    };
+    const auto [near, far] = std::minmax({along(ahead, box.lower[0] - 1, box.lower[1] - 1),
+                                          along(ahead, box.upper[0], box.upper[1])});
+    const auto [low, high] = std::minmax({along(across, box.lower[0] - 1, box.lower[1] - 1),
+                                          along(across, box.upper[0], box.upper[1])});
     if (far <= 0) return {most, least};
     Sector sector{least, most};
     if (near > 0 || low > 0) sector.low = {low, low > 0 ? far : near};
@@ -97,8 +101,11 @@ class FieldOfView {
     const auto blocked = [&](const Index<2>& cell) {
       return !grid.contains(cell) || blocks(grid.value(cell));
     };
+    const auto cell_at = [&](int row, int column) {
+      return Index<2>(from[0] + row * ahead[0] + column * across[0], from[1] + row * ahead[1] + column * across[1]);
+    };
     // The one cell beside the apex that a segment along the diagonal touches.
-    if (blocked(from + across)) lit_.front().high = std::min(lit_.front().high, Slope{1, 1});
+    if (blocked(cell_at(0, 1))) lit_.front().high = std::min(lit_.front().high, Slope{1, 1});
     const double range_squared = range_cells * range_cells * (1.0 + 1e-12);
     for (int row = 1; row <= range_cells && !lit_.empty(); ++row) {
       next_lit_.clear();
@@ -110,7 +117,7 @@ class FieldOfView {
         const int last = static_cast<int>(
             floor_div(sector.high.across * (2 * row + 1) + sector.high.ahead, 2 * sector.high.ahead));
         for (int column = first; column <= std::min(last, row + 1); ++column) {
-          const Index<2> cell = from + row * ahead + column * across;
+          const Index<2> cell = cell_at(row, column);
           if (blocked(cell)) {
             // The corners that look outermost. (Straight ahead the low one lies below the octant anyway.)
             const Slope shadow_low{2 * column - 1, 2 * row + 1};
@@ -122,7 +129,7 @@ class FieldOfView {
           const Slope center{column, row};
           if (column > row || !(sector.low < center && center < sector.high)) continue;
           if (static_cast<double>(row) * row + static_cast<double>(column) * column > range_squared) continue;
-          if (column == row && blocked(cell - across)) continue;
+          if (column == row && blocked(cell_at(row, column - 1))) continue;
           if (!show(visit, cell)) return false;
         }
         if (low < sector.high && low < Slope{1, 1}) next_lit_.push_back({low, sector.high});

@@ -20,7 +20,7 @@ class ObstacleField {
   /// A cell is blocked when blocks(value) holds. O(cells).
   template <class Value, class Blocks>
   ObstacleField(const Grid<Value, 2>& grid, Blocks&& blocks)
-      : box_(grid.box()), gaps_(grid.lattice(), padded(grid.box()), std::uint8_t{0}) {
+      : box_(grid.box()), gaps_(grid.lattice(), grid.box().padded(1), std::uint8_t{0}) {
     Grid<std::uint8_t, 2> blocked(grid.lattice(), gaps_.box(), std::uint8_t{1});
     for (Offset cell = 0; cell < static_cast<Offset>(grid.size()); ++cell) {
       if (!blocks(grid[cell])) blocked.set(grid.index_at(cell), std::uint8_t{0});
@@ -141,14 +141,10 @@ class ObstacleField {
   static constexpr double gap_unit_count = 2.0;  ///< units of the table in a cell
   static constexpr std::uint8_t gap_worth_a_stride = 4;
 
-  /// With a ring of blocked cells around, no walk leaves the table.
-  [[nodiscard]] static IndexBox<2> padded(const IndexBox<2>& box) {
-    return {(box.lower.array() - 1).matrix(), (box.upper.array() + 1).matrix()};
-  }
-
   /// Coordinates in cells from the table's lower corner.
   [[nodiscard]] Point<2> to_table(const Point<2>& point_m) const {
-    return gaps_.lattice().to_cells(point_m) - gaps_.box().lower.cast<double>();
+    const Point<2> cells = gaps_.lattice().to_cells(point_m);
+    return {cells[0] - gaps_.box().lower[0], cells[1] - gaps_.box().lower[1]};
   }
 
   /// False for NaN too.
@@ -159,7 +155,7 @@ class ObstacleField {
 
   IndexBox<2> box_;
   /// 0 in a blocked cell; otherwise 1 + a lower bound of the gap between this cell's square and any blocked
-  /// one, in parts of a cell.
+  /// one, in parts of a cell. With a ring of blocked cells around, no walk leaves the table.
   Grid<std::uint8_t, 2> gaps_;
 };
 

@@ -28,8 +28,8 @@ struct BeamPattern {
     require(std::isfinite(range_max_m) && range_max_m > range_min_m, "BeamPattern", "range_max_m", range_max_m,
             "finite and > range_min_m");
     for (const Point<Dim>& direction : directions) {
-      require(std::abs(direction.norm() - 1.0) <= 1e-6, "BeamPattern", "length of a direction", direction.norm(),
-              "1 within 1e-6");
+      const double length = norm(direction);
+      require(std::abs(length - 1.0) <= 1e-6, "BeamPattern", "length of a direction", length, "1 within 1e-6");
     }
   }
 };
@@ -93,7 +93,7 @@ class Scan {
 
   /// Where a beam ends in the sensor's frame, its range lengthened by extra_m.
   [[nodiscard]] Point<Dim> end_point_m(std::size_t beam, double extra_m = 0.0) const {
-    return direction(beam) * (range_m(beam) + extra_m);
+    return scaled(direction(beam), range_m(beam) + extra_m);
   }
 
  private:

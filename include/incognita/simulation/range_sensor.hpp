@@ -8,6 +8,7 @@
 #include "incognita/core/error.hpp"
 #include "incognita/core/random.hpp"
 #include "incognita/geometry/pose2.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/sensor/obstacle_field.hpp"
 #include "incognita/sensor/scan.hpp"
 
@@ -40,7 +41,7 @@ class RangeSensor {
     const double range_max_m = scan_.range_max_m();
     for (std::size_t beam = 0; beam < scan_.size(); ++beam) {
       const double noise_m = random_.normal(0.0, range_sigma_m_);
-      const double true_m = obstacles.cast_ray_m(origin_m, rotation * scan_.direction(beam), range_max_m);
+      const double true_m = obstacles.cast_ray_m(origin_m, product(rotation, scan_.direction(beam)), range_max_m);
       const bool is_hit = true_m < range_max_m;
       scan_.set_range_m(beam,
                         is_hit ? std::min(std::max(true_m + noise_m, hit_min_m), range_max_m) : range_max_m);
