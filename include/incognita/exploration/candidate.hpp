@@ -65,20 +65,27 @@ struct Candidate {
   return best;
 }
 
-/// The unknown cells that share a face with a cell of the frontier, each once, in the order of the frontier's cells.
-[[nodiscard]] inline std::vector<Index<2>> unknown_beside(const OccupancyGrid<2>& occupancy, const Frontier<2>& frontier) {
-  std::vector<Index<2>> unknown;
-  for (const Index<2>& cell : frontier.cells) {
-    for (const Index<2>& step : {Index<2>(1, 0), Index<2>(-1, 0), Index<2>(0, 1), Index<2>(0, -1)}) {
-      const Index<2> beside = sum(cell, step);
-      if (occupancy.value(beside) == Occupancy::unknown) unknown.push_back(beside);
+/// The unknown cells that share a face with a cell of the frontier, each once, in storage order.
+template <int Dim>
+[[nodiscard]] std::vector<Index<Dim>> unknown_beside(const OccupancyGrid<Dim>& occupancy,
+                                                     const Frontier<Dim>& frontier) {
+  std::vector<Index<Dim>> unknown;
+  for (const Index<Dim>& cell : frontier.cells) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      for (const int side : {-1, 1}) {
+        Index<Dim> beside = cell;
+        beside[axis] += side;
+        if (occupancy.value(beside) == Occupancy::unknown) unknown.push_back(beside);
+      }
     }
   }
-  const auto before = [](const Index<2>& a, const Index<2>& b) {
-    return a.y() != b.y() ? a.y() < b.y() : a.x() < b.x();
+  const auto before = [](const Index<Dim>& a, const Index<Dim>& b) {  // storage order
+    int axis = Dim - 1;
+    while (axis > 0 && a[axis] == b[axis]) --axis;
+    return a[axis] < b[axis];
   };
   std::sort(unknown.begin(), unknown.end(), before);
-  unknown.erase(std::unique(unknown.begin(), unknown.end(), equal<Index<2>>), unknown.end());
+  unknown.erase(std::unique(unknown.begin(), unknown.end(), equal<Index<Dim>>), unknown.end());
   return unknown;
 }
 

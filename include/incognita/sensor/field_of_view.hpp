@@ -80,10 +80,14 @@ class FieldOfView {
     const auto along = [&](const Index<2>& axis, int x, int y) {
       return (x - from[0]) * axis[0] + (y - from[1]) * axis[1];
     };
-    const auto [near, far] = std::minmax({along(ahead, box.lower[0] - 1, box.lower[1] - 1),
-                                          along(ahead, box.upper[0], box.upper[1])});
-    const auto [low, high] = std::minmax({along(across, box.lower[0] - 1, box.lower[1] - 1),
-                                          along(across, box.upper[0], box.upper[1])});
+    const int ahead_a = along(ahead, box.lower[0] - 1, box.lower[1] - 1);
+    const int ahead_b = along(ahead, box.upper[0], box.upper[1]);
+    const int across_a = along(across, box.lower[0] - 1, box.lower[1] - 1);
+    const int across_b = along(across, box.upper[0], box.upper[1]);
+    const int near = std::min(ahead_a, ahead_b);
+    const int far = std::max(ahead_a, ahead_b);
+    const int low = std::min(across_a, across_b);
+    const int high = std::max(across_a, across_b);
     if (far <= 0) return {most, least};
     Sector sector{least, most};
     if (near > 0 || low > 0) sector.low = {low, low > 0 ? far : near};
