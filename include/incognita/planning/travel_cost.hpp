@@ -66,7 +66,8 @@ class TravelCostField {
         cost_m_(occupancy.lattice(), cost_per_m_.box(), infinite),
         step_to_(occupancy.lattice(), cost_per_m_.box(), no_step) {
     params.validate();
-    if (!std::isfinite(start_m[0]) || !std::isfinite(start_m[1])) throw std::invalid_argument("TravelCostField: start_m is not finite");
+    if (!std::isfinite(start_m[0]) || !std::isfinite(start_m[1]))
+      throw std::invalid_argument("TravelCostField: start_m is not finite");
     if (occupancy.box() != clearance_m.box()) {
       throw std::invalid_argument("TravelCostField: occupancy and clearance_m differ in their boxes");
     }
