@@ -147,6 +147,12 @@ class Explorer {
       }
       retreats_from_.reset();
       must_decide_ = true;
+      // A second retreat on the way to one goal means that its way is too tight.
+      const Eigen::Vector2d& goal_m = decision_.chosen()->frontier_m;
+      if (retreated_on_way_to_ && distance(*retreated_on_way_to_, goal_m) <= params_.set_aside.radius_m) {
+        failed_ = goal_m;
+      }
+      retreated_on_way_to_ = goal_m;
     }
     const Twist2 wanted = follower_.command(filter_.belief().pose);
     const Twist2 allowed = guard_command(wanted, scan, params_.guard);
@@ -299,6 +305,7 @@ class Explorer {
   std::vector<GainWorkspace<Cell>> workspaces_;
   std::optional<Eigen::Vector2d> failed_;
   std::optional<Eigen::Vector2d> retreats_from_;  // where the robot stood when it began to retreat
+  std::optional<Eigen::Vector2d> retreated_on_way_to_;  // the frontier that the last retreat was on the way to
   bool must_decide_ = false;
   double time_s_ = 0.0;
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive

@@ -20,7 +20,7 @@ namespace incognita {
 struct CollisionGuardParams {
   double robot_radius_m = 0.2;
   double margin_m = 0.03;        ///< beyond the radius
-  double creep_margin_m = 0.01;  ///< enough up to creep_speed, for doors hardly wider than the robot
+  double creep_margin_m = 0.02;  ///< enough up to creep_speed, for doors hardly wider than the robot
   double creep_speed_m_per_s = 0.1;
   double reaction_time_s = 0.15;       ///< from a scan to the moment at which the robot brakes
   double deceleration_m_per_s2 = 1.0;  ///< of the robot
@@ -66,7 +66,7 @@ struct CollisionGuardParams {
 /// A beam's range as the mean over it and up to `reach` beams on either side, of those that end within
 /// `similar_m` of where it ends. The nearest of many noisy readings is always too near; between two walls, that
 /// would hold a robot for ever.
-[[nodiscard]] inline double smoothed_range_m(const Scan<2>& scan, std::size_t beam, std::size_t reach = 4,
+[[nodiscard]] inline double smoothed_range_m(const Scan<2>& scan, std::size_t beam, std::size_t reach = 2,
                                              double similar_m = 0.05) {
   const Eigen::Vector2d end_m = scan.end_point_m(beam);
   double sum_m = 0.0;
