@@ -69,11 +69,11 @@ TEST_CASE("the viewpoint is the nearest reachable cell from which the target is 
     while (belief.value(start) != Occupancy::free) start = random_cell();
     const TravelCostField field(belief, clearance_of(belief), belief.lattice().center_m(start));
     const Index<2> target = random_cell();
-    const double radius_m = 0.05 + 0.1 * static_cast<double>(1 + random.index(9));
+    const int reach = 1 + static_cast<int>(random.index(9));
+    const double radius_m = reach * 0.1;
     const auto viewpoint = find_viewpoint(belief, field, target, radius_m);
 
     // A line through the very corner of a cell may count either way.
-    const int reach = static_cast<int>(radius_m / 0.1);
     const auto strict = best_viewpoint(belief, field, target, reach, 0.5 + 1e-6);
     const auto lenient = best_viewpoint(belief, field, target, reach, 0.5 - 1e-6);
     const auto none = std::numeric_limits<int>::max();

@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 #include "incognita/map/overlay.hpp"
@@ -153,4 +155,20 @@ TEST_CASE("An overlay refuses more predicted scans than there are stamps for", "
   REQUIRE_THROWS_AS(overlay.update(none, {}, Eigen::Matrix2d::Zero()), std::length_error);
   overlay.reset(map);
   REQUIRE_NOTHROW(overlay.update(none, {}, Eigen::Matrix2d::Zero()));
+}
+
+TEST_CASE("An overlay refuses a predicted scan that reaches out of the map's box, and stays as it was", "[map]") {
+  Random random(6);
+  const Map<> map = scanned_map<TBayes, 2>(random, TBayes());
+  Overlay<TBayes> overlay;
+  overlay.reset(map);
+  const Box<Index<2>> box = map.grid().box();
+  const Eigen::Vector2d corner = map.lattice().center_m({box.upper.x() - 3, box.upper.y() - 3});
+  const Scan<2> east(planar_beams(1, 0.0, 0.0, 10.0), {1.0});
+  for (const double yaw_rad : {0.0, 0.5 * std::numbers::pi}) {
+    const Pose2 outward{corner.x(), corner.y(), yaw_rad};
+    REQUIRE_THROWS_AS(overlay.update(east, outward, Eigen::Matrix2d::Zero()), std::length_error);
+  }
+  REQUIRE(overlay.touched().empty());
+  REQUIRE_NOTHROW(overlay.update(east, {corner.x() - 1.5, corner.y(), 0.0}, Eigen::Matrix2d::Zero()));
 }

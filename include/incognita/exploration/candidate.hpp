@@ -36,7 +36,8 @@ struct Candidate {
                                                             const TravelCostField& field, const Index<2>& target,
                                                             double radius_m) {
   const Lattice<2>& lattice = occupancy.lattice();
-  const int reach = static_cast<int>(radius_m / lattice.resolution_m());
+  const double radius_cells = radius_m / lattice.resolution_m();
+  const int reach = static_cast<int>(radius_cells + 1e-9);  // 0.3 m of 0.1 m cells are 3
   const auto sees_target = [&](const Index<2>& from) {
     bool clear = true;
     traverse<2>(lattice, lattice.center_m(from), lattice.center_m(target), [&](const Index<2>& index) {

@@ -257,7 +257,8 @@ class Explorer {
   void reserve_reach() {
     const IndexBox<2>& box = reached_;
     const Box<Eigen::Vector2d> reached_m{map_.lattice().center_m(box.lower), map_.lattice().center_m(box.upper)};
-    map_.reserve(reached_m.padded(params_.gain.range_max_m + 2.0 * map_.resolution_m()));
+    const double margin_m = map_.hit_push_m() + 2.0 * map_.resolution_m();
+    map_.reserve(reached_m.padded(params_.gain.range_max_m + margin_m));
   }
 
   /// A candidate for each frontier that can be seen from a reachable place, cheapest to reach first.

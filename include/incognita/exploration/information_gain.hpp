@@ -107,7 +107,8 @@ void predict_scan(const Eigen::Vector2d& position, float blocked_above, GainWork
 /// H(map) - H(map after the scans predicted along `path`), in nats: (16), or (18), BIG, with the entropy table of
 /// `Behavioral`. Summed over the cells that the predicted scans touch; the others cancel. At each pose, in this order:
 /// motion (7), predicted scan, covariance (11a) given the map so far, cells (15) given that covariance. The path starts
-/// at the robot; its first point brings nothing. Cells in reach of the path must lie in the map's box (Map::reserve).
+/// at the robot; its first point brings nothing. Cells in reach of the path must lie in the map's box (Map::reserve);
+/// std::length_error otherwise.
 /// O(poses * beams * cells a beam).
 template <CellPolicy Cell, class Filter>
 [[nodiscard]] double information_gain(const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,

@@ -61,11 +61,15 @@ class Overlay {
     return state;
   }
 
-  /// Writes a predicted scan, as Map::update would. Every cell it reaches must lie in the map's box (Map::reserve).
-  /// Throws std::length_error after more predicted scans than stamps are left for (5,535).
+  /// Writes a predicted scan, as Map::update would. Throws std::length_error when it reaches out of the map's box
+  /// (Map::reserve makes room), and after more predicted scans than stamps are left for (5,535).
   void update(const Scan<Dim>& scan, const Pose<Dim>& T_map_sensor,
               const Eigen::Matrix<double, Dim, Dim>& position_covariance_m2) {
     if (stamp_ == static_cast<ScanStamp>(-1)) throw std::length_error("Overlay::update: too many predicted scans");
+    const IndexBox<Dim> reach = cells_in_reach(map_->lattice(), scan, T_map_sensor, map_->hit_push_m());
+    if (!map_->grid().box().contains(reach)) {
+      throw std::length_error("Overlay::update: a predicted scan reaches out of the map's box; see Map::reserve");
+    }
     ++stamp_;
     integrate_scan<Cell, Dim>(map_->cell(), map_->lattice(), *this, scan, T_map_sensor, position_covariance_m2,
                               map_->hit_push_m(), stamp_);
