@@ -93,7 +93,7 @@ struct Ranking {
   const incognita::PoseBelief start_belief{{start.x(), start.y(), 0.0},
                                            Eigen::Vector3d(0.0025, 0.0025, 0.0001).asDiagonal()};
   const incognita::GainParams params{.range_max_m = kRange_m};
-  incognita::GainWorkspace<incognita::TBayes> workspace(params);
+  incognita::GainWorkspace<incognita::TBayes> workspace;
   for (RankedPath& path : paths) {
     std::vector<incognita::PoseBelief> unused;
     path.gain_nats = incognita::information_gain(

@@ -87,7 +87,8 @@ struct Drive {
 
   const incognita::DvlEkf filter;
   const incognita::GainParams prediction{.beams = static_cast<int>(kBeams), .range_max_m = kRange_m};
-  incognita::GainWorkspace<incognita::TBayes> workspace(prediction);
+  incognita::GainWorkspace<incognita::TBayes> workspace;
+  workspace.prepare(prediction);
   const incognita::BeamPattern<2> beams = incognita::circular_beams(kBeams, kRange_m);
   constexpr int kStepsPerMetre = 10;
   incognita::PoseBelief belief{{kDriveFrom_m, 0.0, 0.0}, filter.params().start.covariance};

@@ -42,12 +42,12 @@ bool is_hidden(const OccupancyGrid<2>& belief, const Index<2>& from, const Index
 
 /// Squared distance in cells and cost of the best viewpoint, by asking all cells.
 std::pair<int, float> best_viewpoint(const OccupancyGrid<2>& belief, const TravelCostField& field,
-                                     const Index<2>& target, int reach, double half_cells) {
+                                     const Index<2>& target, int radius_half_cells, double half_cells) {
   std::pair<int, float> best{std::numeric_limits<int>::max(), 0.0F};
   for (Offset offset = 0; offset < static_cast<Offset>(belief.size()); ++offset) {
     const Index<2> index = belief.index_at(offset);
     const int distance2 = (index - target).squaredNorm();
-    if (distance2 > reach * reach || !field.reaches(index)) continue;
+    if (4 * distance2 > radius_half_cells * radius_half_cells || !field.reaches(index)) continue;
     const std::pair<int, float> ranked{distance2, field.cost_m(index)};
     if (ranked < best && !is_hidden(belief, index, target, half_cells)) best = ranked;
   }
@@ -69,13 +69,13 @@ TEST_CASE("the viewpoint is the nearest reachable cell from which the target is 
     while (belief.value(start) != Occupancy::free) start = random_cell();
     const TravelCostField field(belief, clearance_of(belief), belief.lattice().center_m(start));
     const Index<2> target = random_cell();
-    const int reach = 1 + static_cast<int>(random.index(9));
-    const double radius_m = reach * 0.1;
+    const int radius_half_cells = 2 + static_cast<int>(random.index(18));
+    const double radius_m = radius_half_cells * 0.05;
     const auto viewpoint = find_viewpoint(belief, field, target, radius_m);
 
     // A line through the very corner of a cell may count either way.
-    const auto strict = best_viewpoint(belief, field, target, reach, 0.5 + 1e-6);
-    const auto lenient = best_viewpoint(belief, field, target, reach, 0.5 - 1e-6);
+    const auto strict = best_viewpoint(belief, field, target, radius_half_cells, 0.5 + 1e-6);
+    const auto lenient = best_viewpoint(belief, field, target, radius_half_cells, 0.5 - 1e-6);
     const auto none = std::numeric_limits<int>::max();
     CAPTURE(round, radius_m);
     if (!viewpoint) {
@@ -146,7 +146,7 @@ TEST_CASE("gains of candidates are the same bits for any number of threads") {
   std::vector<GainWorkspace<TBayes>> kept;
   const std::vector<double> expected = gains(1, kept);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    GainWorkspace<TBayes> alone(params);
+    GainWorkspace<TBayes> alone;
     CHECK(expected[i] == information_gain(map, table, filter, candidates[i].path, params, alone));
   }
   for (const int threads : {2, 4, 3, 1, 0}) {

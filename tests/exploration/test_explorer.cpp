@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "incognita/entropy/shannon.hpp"
+#include "incognita/entropy/tsallis.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
 #include "incognita/metrics/coverage.hpp"
 #include "incognita/metrics/visible_floor.hpp"
@@ -98,6 +99,42 @@ TEST_CASE("a robot whose pose is too uncertain is lost") {
   // sigma^2 = 0.3^2 t and what the heading adds while driving.
   CHECK(simulator.time_s() <= Approx(1.1));
   CHECK(position_sigma_m(explorer.belief().covariance) > 0.3);
+}
+
+TEST_CASE("odometry that is no motion is refused, and changes nothing") {
+  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  explorer.move({0.1, 0.0, 0.0}, 0.1);
+  const PoseBelief before = explorer.belief();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(explorer.move({nan, 0.0, 0.0}, 0.1), Catch::Contains("increment"));
+  CHECK_THROWS_WITH(explorer.move({0.1, 0.0, 0.0}, -0.5), Catch::Contains("duration_s") && Catch::Contains("-0.5"));
+  CHECK_THROWS_AS(explorer.move({0.1, 0.0, 0.0}, nan), std::invalid_argument);
+  CHECK(explorer.time_s() == 0.1);
+  CHECK(explorer.belief().pose.x_m == before.pose.x_m);
+  CHECK(explorer.belief().covariance == before.covariance);
+}
+
+TEST_CASE("candidates that tell too little do not hide a better one further away") {
+  ExplorerParams params = quick_params();
+  params.candidates_max = GENERATE(1, 2, 40);
+  params.gain_min_cells = 2000.0;  // only the way into the other room promises as much
+  Simulator simulator = test::office_simulator(0.9, 1);
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  while (!explorer.decide()) {
+    explorer.move({}, 0.1);
+    explorer.observe(simulator.scan());
+  }
+  CAPTURE(params.candidates_max);
+  REQUIRE(explorer.decision().chosen() != nullptr);
+  CHECK(explorer.decision().chosen()->gain_nats >= 2000.0 * std::log(2.0));
+}
+
+TEST_CASE("the bar for a candidate scales with the entropy") {
+  // Half of Tsallis' entropy with q = 1000 is a thousandth of Shannon's.
+  Simulator simulator = test::office_simulator(0.9, 1);
+  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Tsallis{1000.0});
+  test::run_mission(explorer, simulator, 120.0);
+  CHECK(explored_fraction(explorer, simulator) > 0.9);
 }
 
 TEST_CASE("an exploration ends when its time is over") {
@@ -224,7 +261,7 @@ TEST_CASE("explorer parameters out of bounds are refused by name and value") {
   refused([](auto& p) { p.travel_offset_m = -0.25; }, own, "travel_offset_m", "-0.25");
   refused([](auto& p) { p.candidates_max = 0; }, own, "candidates_max", "0");
   refused([](auto& p) { p.viewpoint_radius_m = -3.0; }, own, "viewpoint_radius_m", "-3");
-  refused([](auto& p) { p.gain_min_nats = -0.5; }, own, "gain_min_nats", "-0.5");
+  refused([](auto& p) { p.gain_min_cells = -0.5; }, own, "gain_min_cells", "-0.5");
   refused([](auto& p) { p.decision_interval_s = -1.5; }, own, "decision_interval_s", "-1.5");
   refused([](auto& p) { p.blocked_max_s = 0.0; }, own, "blocked_max_s", "0");
   refused([](auto& p) { p.retreat_distance_m = -2.5; }, own, "retreat_distance_m", "-2.5");

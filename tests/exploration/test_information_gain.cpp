@@ -188,7 +188,7 @@ void check_against_slow_gain(std::uint64_t seed, const Cell& cell = Cell{}) {
     const Behavioral measure{round % 2 == 0 ? 0.5 : 2.0};
     const EntropyTable table(measure);
     const PoseBelief start = start_of(path, random.uniform(1e-4, 0.3));
-    GainWorkspace<Cell> workspace(params);
+    GainWorkspace<Cell> workspace;
 
     const DvlEkf ekf = ekf_at(start);
     const double gain = information_gain(map, table, ekf, path, params, workspace);
@@ -224,7 +224,7 @@ TEST_CASE("information gain leaves the map and the filter as they are") {
   const DvlEkf filter = ekf_at(start_of(path, 0.01));
   std::vector<float> before;
   for (Offset i = 0; i < static_cast<Offset>(map.grid().size()); ++i) before.push_back(map.log_odds(i));
-  GainWorkspace<TBayes> workspace(coarse_params());
+  GainWorkspace<TBayes> workspace;
   CHECK(information_gain(map, EntropyTable(Shannon{}), filter, path, coarse_params(), workspace) > 0.0);
   std::vector<float> after;
   for (Offset i = 0; i < static_cast<Offset>(map.grid().size()); ++i) after.push_back(map.log_odds(i));
@@ -237,7 +237,7 @@ TEST_CASE("a path that leads nowhere gains nothing") {
   const Map<TBayes> map = half_seen_room<TBayes>(random);
   const Polyline path = random_path(random);
   const DvlEkf filter = ekf_at(start_of(path, 0.01));
-  GainWorkspace<TBayes> workspace(coarse_params());
+  GainWorkspace<TBayes> workspace;
   const EntropyTable table(Shannon{});
   CHECK(information_gain(map, table, filter, Polyline{}, coarse_params(), workspace) == 0.0);
   CHECK(information_gain(map, table, filter, Polyline({path.points_m().front()}), coarse_params(), workspace) == 0.0);
@@ -250,14 +250,21 @@ TEST_CASE("a workspace that has served before gives the same bits as a new one")
   Map<TBayes> empty(MapParams{0.3, 0.5});
   empty.reserve({Eigen::Vector2d(-9.0, -9.0), Eigen::Vector2d(9.0, 9.0)});
   const EntropyTable table(Behavioral{0.7});
-  GainWorkspace<TBayes> kept(coarse_params());
+  GainWorkspace<TBayes> kept;
   for (int round = 0; round < 8; ++round) {
     const Map<TBayes>& map = round % 3 == 2 ? empty : large;
     const Polyline path = random_path(random);
     const DvlEkf filter = ekf_at(start_of(path, 0.02));
-    GainWorkspace<TBayes> fresh(coarse_params());
+    GainWorkspace<TBayes> fresh;
     const double expected = information_gain(map, table, filter, path, coarse_params(), fresh);
     CHECK(information_gain(map, table, filter, path, coarse_params(), kept) == expected);
+    // Also for other beams.
+    GainParams other = coarse_params();
+    other.beams = 7;
+    other.range_max_m = 2.0;
+    GainWorkspace<TBayes> fresh_other;
+    CHECK(information_gain(map, table, filter, path, other, kept) ==
+          information_gain(map, table, filter, path, other, fresh_other));
   }
 }
 
@@ -273,8 +280,8 @@ TEST_CASE("far before the end of its beams a more certain pose clears unknown ce
   const EntropyTable shannon(Shannon{});
   const MotionNoise noise{0.1, 0.05};
 
-  GainWorkspace<TBayes> certain(params);
-  GainWorkspace<TBayes> uncertain(params);
+  GainWorkspace<TBayes> certain;
+  GainWorkspace<TBayes> uncertain;
   const PoseBelief start = start_of(path, 1e-3);
   const PoseBelief spread_start = start_of(path, 0.4);
   (void)information_gain(map, shannon, reckoning_at(start), path, params, certain);

@@ -37,7 +37,8 @@ struct Candidate {
                                                             double radius_m) {
   const Lattice<2>& lattice = occupancy.lattice();
   const double radius_cells = radius_m / lattice.resolution_m();
-  const int reach = static_cast<int>(radius_cells + 1e-9);  // 0.3 m of 0.1 m cells are 3
+  constexpr double rounding = 1e-9;  // 0.3 m of 0.1 m cells are 3
+  const int reach = static_cast<int>(radius_cells + rounding);
   const auto sees_target = [&](const Index<2>& from) {
     bool clear = true;
     traverse<2>(lattice, lattice.center_m(from), lattice.center_m(target), [&](const Index<2>& index) {
@@ -47,7 +48,7 @@ struct Candidate {
     return clear;
   };
   std::optional<Index<2>> best;
-  int best_distance2 = reach * reach;
+  int best_distance2 = static_cast<int>(radius_cells * radius_cells + rounding);
   float best_cost_m = std::numeric_limits<float>::infinity();
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
@@ -96,7 +97,7 @@ template <CellPolicy Cell, class Filter>
 void evaluate_candidates(const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
                          std::vector<Candidate>& candidates, const GainParams& params, int threads,
                          std::vector<GainWorkspace<Cell>>& workspaces) {
-  while (workspaces.size() < static_cast<std::size_t>(worker_count(threads))) workspaces.emplace_back(params);
+  workspaces.resize(std::max(workspaces.size(), static_cast<std::size_t>(worker_count(threads))));
   for_each_index(candidates.size(), threads, [&](std::size_t index, int worker) {
     Candidate& candidate = candidates[index];
     candidate.gain_nats = information_gain(map, entropy, filter, candidate.path, params,

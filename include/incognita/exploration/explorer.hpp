@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -43,9 +44,9 @@ struct ExplorerParams {
   SetAsideParams set_aside;
   Ranking ranking = Ranking::gain_per_metre;
   double travel_offset_m = 2.0;            ///< >= 0
-  int candidates_max = 40;                 ///< the cheapest to reach are evaluated, >= 1
+  int candidates_max = 40;                 ///< so many are compared, the cheapest to reach that are worth going, >= 1
   double viewpoint_radius_m = 1.5;         ///< how near to a frontier the robot must be able to get
-  double gain_min_nats = 5.0;              ///< candidates that promise less are not worth going
+  double gain_min_cells = 7.0;             ///< not worth going for less than the entropy of so many unknown cells
   double decision_interval_s = 1.0;        ///< a goal that still leads somewhere is not reconsidered sooner
   double blocked_max_s = 1.0;              ///< standing before an obstacle for longer, the robot retreats from it
   double retreat_distance_m = 0.1;         ///< how far, before it decides anew
@@ -67,7 +68,7 @@ struct ExplorerParams {
     require_non_negative("ExplorerParams", "travel_offset_m", travel_offset_m);
     require(candidates_max >= 1, "ExplorerParams", "candidates_max", candidates_max, ">= 1");
     require_positive("ExplorerParams", "viewpoint_radius_m", viewpoint_radius_m);
-    require_non_negative("ExplorerParams", "gain_min_nats", gain_min_nats);
+    require_non_negative("ExplorerParams", "gain_min_cells", gain_min_cells);
     require_non_negative("ExplorerParams", "decision_interval_s", decision_interval_s);
     require_positive("ExplorerParams", "blocked_max_s", blocked_max_s);
     require_positive("ExplorerParams", "retreat_distance_m", retreat_distance_m);
@@ -111,13 +112,15 @@ class Explorer {
     params_.validate();
   }
 
-  /// The robot has moved by `increment`, in its own frame, within duration_s.
+  /// The robot has moved by `increment`, in its own frame, within duration_s. Throws std::invalid_argument unless the
+  /// increment is finite and the duration finite and >= 0; nothing has then changed.
   void move(const Pose2& increment, double duration_s) {
     filter_.predict(increment, duration_s);
     time_s_ += duration_s;
   }
 
-  /// A scan was taken: corrects the pose by the map, then the map by the scan. See Map::update for bad scans.
+  /// A scan was taken: corrects the pose by the map, then the map by the scan. See Map::update for bad scans; when it
+  /// throws (a pose beyond the lattice's reach), the pose has been corrected and the map is as it was.
   ScanReport observe(const Scan<2>& scan) {
     filter_.correct(scan, map_);
     const ScanReport report = map_.update(scan, filter_.belief().pose, filter_.belief().covariance);
@@ -236,14 +239,10 @@ class Explorer {
     const std::vector<Frontier<2>> frontiers = find_frontiers(occupancy, params_.frontier);
     if (frontiers.empty()) return stop(StopReason::complete);
 
-    std::vector<Candidate> candidates = find_candidates(occupancy, frontiers);
-    if (candidates.empty()) return stop(StopReason::nothing_reachable);
-    std::erase_if(candidates, [&](const Candidate& c) { return set_aside_.contains(c.frontier_m, occupancy); });
-    if (candidates.size() > static_cast<std::size_t>(params_.candidates_max)) {
-      candidates.resize(static_cast<std::size_t>(params_.candidates_max));
-    }
-    evaluate_candidates(map_, entropy_, filter_, candidates, params_.gain, params_.threads, workspaces_);
-    std::erase_if(candidates, [&](const Candidate& c) { return c.gain_nats < params_.gain_min_nats; });
+    std::vector<Candidate> reachable = find_candidates(occupancy, frontiers);
+    if (reachable.empty()) return stop(StopReason::nothing_reachable);
+    std::erase_if(reachable, [&](const Candidate& c) { return set_aside_.contains(c.frontier_m, occupancy); });
+    std::vector<Candidate> candidates = first_informative(std::move(reachable));
     if (candidates.empty()) return stop(StopReason::nothing_informative);
     for (Candidate& candidate : candidates) candidate.utility = utility(candidate);
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -286,6 +285,21 @@ class Explorer {
     std::vector<Candidate> candidates;
     for (auto& [cost_m, candidate] : found) candidates.push_back(std::move(candidate));
     return candidates;
+  }
+
+  /// The informative ones of the first candidates_max; when there are none, of the next, and so on.
+  [[nodiscard]] std::vector<Candidate> first_informative(std::vector<Candidate> reachable) {
+    const double gain_min_nats = params_.gain_min_cells * entropy_(0.0F);
+    std::vector<Candidate> informative;
+    auto next = reachable.begin();
+    while (informative.empty() && next != reachable.end()) {
+      const auto end = next + std::min<std::ptrdiff_t>(params_.candidates_max, reachable.end() - next);
+      informative.assign(std::make_move_iterator(next), std::make_move_iterator(end));
+      next = end;
+      evaluate_candidates(map_, entropy_, filter_, informative, params_.gain, params_.threads, workspaces_);
+      std::erase_if(informative, [&](const Candidate& c) { return c.gain_nats < gain_min_nats; });
+    }
+    return informative;
   }
 
   [[nodiscard]] double utility(const Candidate& candidate) const {

@@ -43,12 +43,16 @@ struct GainParams {
 /// Scratch of one thread, kept from one evaluation to the next.
 template <CellPolicy Cell>
 struct GainWorkspace {
-  explicit GainWorkspace(const GainParams& params)
-      : scan(circular_beams(static_cast<std::size_t>(params.beams), params.range_max_m)) {}
-
   Overlay<Cell, 2> overlay;
-  Scan<2> scan;
+  Scan<2> scan{BeamPattern<2>{}};
   std::vector<RayObservation> hits;
+
+  /// Makes `scan` the one that `params` ask for.
+  void prepare(const GainParams& params) {
+    const auto beams = static_cast<std::size_t>(params.beams);
+    if (scan.size() == beams && scan.range_max_m() == params.range_max_m) return;
+    scan = Scan<2>(circular_beams(beams, params.range_max_m));
+  }
 };
 
 /// Where a ray enters and leaves a cell that it meets, in metres along its unit direction.
@@ -114,6 +118,7 @@ template <CellPolicy Cell, class Filter>
 [[nodiscard]] double information_gain(const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
                                       const Polyline& path, const GainParams& params,
                                       GainWorkspace<Cell>& workspace) {
+  workspace.prepare(params);
   workspace.overlay.reset(map);
   PoseBelief belief = filter.belief();
   const auto drive_and_scan = [&](const Eigen::Vector2d& to) {

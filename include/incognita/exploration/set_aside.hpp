@@ -10,8 +10,9 @@
 
 namespace incognita {
 
-/// How many cells within `radius_m` of a point are known (cells outside of the box are not).
-[[nodiscard]] inline int count_known(const OccupancyGrid<2>& occupancy, const Eigen::Vector2d& center_m, double radius_m) {
+/// How many cells of the square that reaches `radius_m` from a point to each side are known (none outside of the box).
+[[nodiscard]] inline int count_known(const OccupancyGrid<2>& occupancy, const Eigen::Vector2d& center_m,
+                                     double radius_m) {
   const Box<Eigen::Vector2d> around{center_m, center_m};
   const IndexBox<2> box = occupancy.lattice().cells_of(around.padded(radius_m));
   int known = 0;
@@ -26,7 +27,7 @@ namespace incognita {
 /// When two places are the same and when the map around one has changed.
 struct SetAsideParams {
   double radius_m = 0.5;        ///< a place within this distance of one set aside is the same place
-  double watch_radius_m = 1.0;  ///< the surroundings that may change
+  double watch_radius_m = 1.0;  ///< half the side of the square around it that may change
   int change_cells_min = 15;    ///< a change of the number of known cells there that counts as one
 
   /// Throws std::invalid_argument for values outside of their bounds.
