@@ -28,7 +28,9 @@ class DeadReckoning {
   [[nodiscard]] const PoseBelief& belief() const { return belief_; }
   [[nodiscard]] bool is_ready() const { return true; }
 
+  /// Throws std::invalid_argument unless the increment is finite and the duration finite and >= 0.
   void predict(const Pose2& increment, double duration_s) {
+    require_motion("DeadReckoning::predict", increment, duration_s);
     belief_ = propagate(belief_, increment, params_.noise, duration_s);
   }
 

@@ -69,7 +69,9 @@ class DvlEkf {
   /// False while the start pose is held.
   [[nodiscard]] bool is_ready() const { return scans_held_ >= params_.start_scans_held; }
 
+  /// Throws std::invalid_argument unless the increment is finite and the duration finite and >= 0.
   void predict(const Pose2& increment, double duration_s) {
+    require_motion("DvlEkf::predict", increment, duration_s);
     belief_ = propagate(belief_, increment, params_.noise, duration_s);
     if (!is_ready()) driven_ = propagate(driven_, increment, params_.noise, duration_s);
   }

@@ -71,6 +71,12 @@ struct MotionNoise {
   }
 };
 
+/// Throws std::invalid_argument unless the increment is finite and the duration finite and >= 0.
+inline void require_motion(const char* where, const Pose2& increment, double duration_s) {
+  if (!increment.is_finite()) throw std::invalid_argument(std::string(where) + ": the increment is not finite");
+  require_non_negative(where, "duration_s", duration_s);
+}
+
 /// F_x of Seo et al., (7): the derivative of the next pose, pose * increment, by the pose.
 [[nodiscard]] inline Eigen::Matrix3d motion_jacobian(const Pose2& pose, const Pose2& increment) {
   const double c = std::cos(pose.yaw_rad);
