@@ -25,6 +25,7 @@
 #pragma once
 
 #include "incognita/entropy/behavioral.hpp"
+#include "incognita/entropy/binary_cell.hpp"
 #include "incognita/entropy/concept.hpp"
 #include "incognita/entropy/log_odds_table.hpp"
 #include "incognita/entropy/map_entropy.hpp"

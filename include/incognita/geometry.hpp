@@ -7,3 +7,4 @@
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/pose3.hpp"
 #include "incognita/geometry/twist2.hpp"
+#include "incognita/geometry/vector.hpp"

@@ -1,11 +1,12 @@
 /// planning/: from a belief to speeds, for a disc-shaped robot in the plane. `TravelCostField` is one search
 /// that serves all goals; `find_path` and `shorten_path` turn it into a path; `PathFollower` follows a path;
-/// `guard_command` slows the robot down before what its latest scan shows. Each part works without the
-/// others.
+/// `guard_command` slows the robot down before what its latest scan shows; `retreat_command` takes it out of a tight
+/// place. Each part works without the others.
 #pragma once
 
 #include "incognita/planning/collision_guard.hpp"
 #include "incognita/planning/follow.hpp"
 #include "incognita/planning/path.hpp"
 #include "incognita/planning/polyline.hpp"
+#include "incognita/planning/retreat.hpp"
 #include "incognita/planning/travel_cost.hpp"

@@ -3,5 +3,7 @@
 #pragma once
 
 #include "incognita/sensor/dvl.hpp"
+#include "incognita/sensor/field_of_view.hpp"
+#include "incognita/sensor/obstacle_field.hpp"
 #include "incognita/sensor/ray_cast.hpp"
 #include "incognita/sensor/scan.hpp"

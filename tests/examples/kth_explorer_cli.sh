@@ -61,10 +61,18 @@ refused "a start that is no point" --start --start 3
 refused "a start of more than a point" --start --start 3,4,5
 output=/dev/null/x refused "an output below a file" /dev/null/x
 refused "resolution 0" --resolution --resolution 0
+refused "a negative seed" --seed --seed -1
+refused "a seed that is too large" 18446744073709551616 --seed 18446744073709551616
+refused "a map without a name" --map --map ""
+refused "a start without a point" --start --start ""
 refused "a negative duration" --duration --duration -5
 refused "an unknown option" --frobnicate --frobnicate
 refused "an unknown entropy" --entropy --entropy gibbs
 refused "negative threads" --threads --threads -1
+
+mkdir -p blocked/overview.png
+output=blocked refused "a result whose name is a folder" overview.png --duration 1e6
+rm -r blocked
 
 help=$("$explorer" --help 2>stderr) || fail "--help: exit code $?"
 [ -s stderr ] && fail "--help: something on stderr"

@@ -219,3 +219,14 @@ TEST_CASE("Bad guard parameters are refused", "[planning]") {
   refused([](CollisionGuardParams& params) { params.creep_speed_m_per_s = -1.0; }, "creep_speed_m_per_s");
   refused([](CollisionGuardParams& params) { params.speed_min_m_per_s = 0.0; }, "speed_min_m_per_s");
 }
+
+TEST_CASE("The first beam follows the last when ranges are smoothed", "[planning]") {
+  Scan<2> scan(circular_beams(360, 10.0));
+  const std::vector<double> around_m{1.02, 0.98, 1.0, 1.02, 1.03};  // beams 358, 359, 0, 1, 2
+  for (std::size_t k = 0; k < around_m.size(); ++k) scan.set_range_m((358 + k) % 360, around_m[k]);
+  CHECK(smoothed_range_m(scan, 0) == Approx(1.01));
+  CHECK(smoothed_range_m(scan, 359, 1) == Approx(1.0));
+  Scan<2> single(circular_beams(1, 10.0));
+  single.set_range_m(0, 3.0);
+  CHECK(smoothed_range_m(single, 0) == 3.0);
+}

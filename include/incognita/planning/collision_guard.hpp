@@ -63,16 +63,17 @@ struct CollisionGuardParams {
   return turn_m * std::max(0.0, along_rad - std::acos(std::max(-1.0, cosine)));
 }
 
-/// A beam's range as the mean over it and up to `reach` beams on either side, of those that end within
-/// `similar_m` of where it ends. The nearest of many noisy readings is always too near; between two walls, that
-/// would hold a robot for ever.
+/// A hit beam's range as the mean over it and up to `reach` beams on either side (the first follows the last), of
+/// those that end within `similar_m` of where it ends. The nearest of many noisy readings is always too near;
+/// between two walls, that would hold a robot for ever.
 [[nodiscard]] inline double smoothed_range_m(const Scan<2>& scan, std::size_t beam, std::size_t reach = 2,
                                              double similar_m = 0.05) {
   const Eigen::Vector2d end_m = scan.end_point_m(beam);
   double sum_m = 0.0;
   double count = 0.0;
-  const std::size_t last = std::min(beam + reach, scan.size() - 1);
-  for (std::size_t near = beam - std::min(beam, reach); near <= last; ++near) {
+  const std::size_t side = std::min(reach, (scan.size() - 1) / 2);
+  for (std::size_t step = 0; step <= 2 * side; ++step) {
+    const std::size_t near = (beam + scan.size() - side + step) % scan.size();
     if (scan.reading(near) != Reading::hit) continue;
     const Eigen::Vector2d near_m = scan.end_point_m(near);
     if (std::hypot(near_m[0] - end_m[0], near_m[1] - end_m[1]) > similar_m) continue;
