@@ -44,8 +44,12 @@ incognita::World load_world(const Options& options) {
 
 incognita::Pose2 start_pose(const Options& options, const incognita::World& world, double radius_m) {
   incognita::Random random(options.seed);
-  if (!options.start_m) return random_start(world, radius_m, random);
-  check_start(world, *options.start_m, radius_m);
+  try {
+    if (!options.start_m) return random_start(world, radius_m, random);
+    check_start(world, *options.start_m, radius_m);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument((options.start_m ? "--start" : options.map_file) + ": " + error.what());
+  }
   return {options.start_m->x(), options.start_m->y(), random.uniform(-std::numbers::pi, std::numbers::pi)};
 }
 
@@ -121,7 +125,8 @@ void run(const Options& options) {
   SimulatorParams params;
   World world = load_world(options);
   const Pose2 T_world_start = start_pose(options, world, params.robot.radius_m);
-  examples::OutputFolder output(options.output);
+  examples::OutputFolder output(options.output, {"metrics.json", "decisions.csv", "progress.csv", "trajectory_estimated.tum",
+                                                 "trajectory_true.tum", "map.yaml", "map.png", "overview.png"});
   Simulator simulator(std::move(world), T_world_start, params, options.seed);
   const double range_max_m = simulator.scan().range_max_m();
   const bool coupled = options.filter == "dvl-ekf";
@@ -157,6 +162,10 @@ int main(int argc, char** argv) {
     return refuse(error);
   } catch (const std::exception& error) {
     std::cerr << "kth_explorer: " << error.what() << '\n';
+    return 1;
+  }
+  if (std::fflush(stdout) != 0 || !std::cout.flush()) {
+    std::cerr << "kth_explorer: cannot write to the standard output\n";
     return 1;
   }
   return 0;

@@ -114,19 +114,22 @@ template <class Explorer>
                                   seconds_since(start)});
     }
   };
+  const auto remember_poses = [&] {
+    record.estimated.push_back({simulator.time_s(), explorer.belief().pose});
+    record.truth.push_back({simulator.time_s(), simulator.T_start_robot()});
+  };
   const auto remember = [&] {
     const Pose2 truth = simulator.T_start_robot();
     record.trajectory_error.add(explorer.belief().pose, truth);
     record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
-    if (!simulator.scan_is_new()) return;
-    record.estimated.push_back({simulator.time_s(), explorer.belief().pose});
-    record.truth.push_back({simulator.time_s(), truth});
+    if (simulator.scan_is_new()) remember_poses();
   };
 
   // Steps are counted, so that the end does not depend on how a time is rounded.
   constexpr double step_s = 0.02;
   const auto steps_max = static_cast<std::size_t>(std::ceil(duration_s / step_s - 1e-9));
   observe_and_decide();
+  remember_poses();
   Twist2 command = explorer.command(simulator.scan());
   while (!explorer.stopped() && simulator.steps() < steps_max) {
     explorer.move(simulator.step(command), step_s);

@@ -1,11 +1,13 @@
 /// The command line of kth_explorer.
 #pragma once
 
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
@@ -48,12 +50,24 @@ struct Options {
   return {number(text.substr(0, comma)), number(text.substr(comma + 1))};
 }
 
+/// A CLI11 check: an empty text is most likely a variable that is not set.
+[[nodiscard]] inline std::string refuse_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
+
+/// A CLI11 check: CLI11 itself wraps -1 around and clamps what is too large.
+[[nodiscard]] inline std::string refuse_bad_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole ? "" : "\"" + text + "\" is not a whole number in 0..2^64-1";
+}
+
 /// Throws CLI::ParseError; one whose exit code is 0 asks for the help text.
 [[nodiscard]] inline Options parse_options(CLI::App& app, int argc, char** argv) {
   Options options;
   std::string start;
   app.add_option("--map", options.map_file, "floor plan; without it, the embedded office floor of 55 x 25 m")
-      ->type_name("FILE.yaml|FILE.xml");
+      ->type_name("FILE.yaml|FILE.xml")
+      ->check(refuse_empty);
   app.add_option("--cells", options.cells, "how a cell of the belief is updated")
       ->check(CLI::IsMember({"tbayes", "log-odds"}))
       ->capture_default_str();
@@ -72,9 +86,13 @@ struct Options {
   app.add_option("--duration", options.duration_s, "longest mission, in simulated seconds, > 0")
       ->type_name("S")
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "of the noise and of the start")->type_name("N")->capture_default_str();
+  app.add_option("--seed", options.seed, "of the noise and of the start")
+      ->type_name("N")
+      ->check(refuse_bad_seed)
+      ->capture_default_str();
   app.add_option("--start", start, "start in the map file's frame, in metres; without it, a seeded place in the largest region")
-      ->type_name("X,Y");
+      ->type_name("X,Y")
+      ->check(refuse_empty);
   app.add_option("--resolution", options.resolution_m, "side of a cell of the belief, in metres, 0.02 to 1")
       ->type_name("M")
       ->capture_default_str();

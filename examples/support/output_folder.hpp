@@ -18,15 +18,66 @@ struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Creates the folder and a hidden place within it. Write files to staged(name), then publish() moves them
-/// all to their names. Without publish, the destructor leaves everything as it was: no files, and no folders
-/// that were not there before.
+/// Write files to staged(name), a hidden place within the folder, then publish() moves them all to their names.
+/// Without publish, the destructor leaves everything as it was: no files, and no folders that were not there
+/// before. Nothing is created until the first staged(), so what stops a run before its end leaves nothing behind.
 class OutputFolder {
  public:
-  /// Throws OutputError when the folder cannot be created or written.
-  explicit OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+  /// Throws OutputError when the folder cannot be created or written, or one of `files` in it is a folder.
+  explicit OutputFolder(std::filesystem::path folder, const std::vector<std::string>& files = {})
+      : folder_(std::move(folder)) {
     if (folder_.empty()) throw OutputError("the output folder has no name");
     staging_ = folder_ / (".incomplete-" + std::to_string(getpid()));
+    for (const std::string& file : files) require_no_folder(folder_ / file);
+    create();
+    undo();
+  }
+
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  ~OutputFolder() {
+    if (is_staging_) undo();
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
+  /// Where to write the file that will be path() / name. Throws OutputError when the folder cannot be created.
+  [[nodiscard]] std::filesystem::path staged(const std::string& name) {
+    if (!is_staging_) create();
+    return staging_ / name;
+  }
+
+  /// Moves the staged files to their names and returns their paths, sorted. Throws OutputError when one
+  /// cannot be moved.
+  std::vector<std::filesystem::path> publish() {
+    if (!is_staging_) return {};
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(staging_)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const std::filesystem::path& file : files) require_no_folder(folder_ / file.filename());
+    for (std::filesystem::path& file : files) {
+      const std::filesystem::path target = folder_ / file.filename();
+      std::filesystem::rename(file, target, error);
+      if (error) throw OutputError("cannot write " + target.string() + ": " + error.message());
+      file = target;
+    }
+    std::filesystem::remove(staging_, error);
+    is_staging_ = false;
+    return files;
+  }
+
+ private:
+  static void require_no_folder(const std::filesystem::path& target) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(target, ignored)) {
+      throw OutputError("cannot write " + target.string() + ": it is a folder");
+    }
+  }
+
+  void create() {
+    created_.clear();
     std::filesystem::path existing = std::filesystem::absolute(staging_).lexically_normal();
     std::error_code error;
     while (!std::filesystem::exists(existing, error) && !error) {
@@ -38,46 +89,11 @@ class OutputFolder {
       undo();
       throw OutputError("cannot write to " + folder_.string() + ": " + error.message());
     }
+    is_staging_ = true;
   }
 
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
-
-  ~OutputFolder() {
-    if (!published_) undo();
-  }
-
-  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
-
-  /// Where to write the file that will be path() / name.
-  [[nodiscard]] std::filesystem::path staged(const std::string& name) const { return staging_ / name; }
-
-  /// Moves the staged files to their names and returns their paths, sorted. Throws OutputError when one
-  /// cannot be moved.
-  std::vector<std::filesystem::path> publish() {
-    std::vector<std::filesystem::path> files;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(staging_)) files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    for (const std::filesystem::path& file : files) {
-      const std::filesystem::path target = folder_ / file.filename();
-      if (std::filesystem::is_directory(target, error)) {
-        throw OutputError("cannot write " + target.string() + ": it is a folder");
-      }
-    }
-    for (std::filesystem::path& file : files) {
-      const std::filesystem::path target = folder_ / file.filename();
-      std::filesystem::rename(file, target, error);
-      if (error) throw OutputError("cannot write " + target.string() + ": " + error.message());
-      file = target;
-    }
-    std::filesystem::remove(staging_, error);
-    published_ = true;
-    return files;
-  }
-
- private:
-  void undo() const noexcept {
+  void undo() noexcept {
+    is_staging_ = false;
     std::error_code ignored;
     std::filesystem::remove_all(staging_, ignored);
     for (const std::filesystem::path& folder : created_) std::filesystem::remove(folder, ignored);
@@ -86,7 +102,7 @@ class OutputFolder {
   std::filesystem::path folder_;
   std::filesystem::path staging_;
   std::vector<std::filesystem::path> created_;  // the deepest first
-  bool published_ = false;
+  bool is_staging_ = false;
 };
 
 }  // namespace examples
