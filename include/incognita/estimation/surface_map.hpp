@@ -115,6 +115,30 @@ class SurfaceMap {
     for_each_around(slots_.lattice().index_of(point_m), visit);
   }
 
+  /// Calls visit(surface) for each surface in the cells that a box touches (upper face included), x fastest. The box
+  /// must be within the lattice's reach.
+  template <class Visit>
+  void for_each_in(const Box<Point<Dim>>& box_m, Visit&& visit) const {
+    IndexBox<Dim> cells = slots_.lattice().cells_of(box_m);
+    for (int axis = 0; axis < Dim; ++axis) {
+      cells.lower[axis] = std::max(cells.lower[axis], slots_.box().lower[axis]);
+      cells.upper[axis] = std::min(cells.upper[axis], slots_.box().upper[axis]);
+    }
+    if (cells.empty()) return;
+    Index<Dim> index = cells.lower;
+    while (index[Dim - 1] < cells.upper[Dim - 1]) {
+      if (const std::int32_t slot = slots_[slots_.offset_of(index)]; slot >= 0) {
+        for (const Surface<Dim>& surface : cells_[static_cast<std::size_t>(slot)].sides) {
+          if (surface.count == 0) break;
+          visit(surface);
+        }
+      }
+      for (int axis = 0; axis < Dim && ++index[axis] == cells.upper[axis] && axis + 1 < Dim; ++axis) {
+        index[axis] = cells.lower[axis];
+      }
+    }
+  }
+
  private:
   struct Cell {
     std::array<Surface<Dim>, sides_max> sides;
