@@ -5,9 +5,12 @@
 /// - io/map_server.hpp, map_metadata.hpp: read_map_server and write_map_server, maps of ROS (yaml-cpp)
 /// - io/kth_xml.hpp, kth_floor.hpp, kth_doors.hpp: read_kth_xml, floors of the KTH campus (pugixml)
 /// - io/tum.hpp: read_tum and write_tum, trajectories
+/// - io/robot_log_file.hpp: read_robot_log, scans with odometry, by the file's name
+/// - io/intel_json.hpp, carmen_log.hpp, robot_log.hpp: read_intel_json (nlohmann/json) and read_carmen_log
+/// - io/relations.hpp: read_relations, measured relations between poses
 /// - io/png.hpp, pgm.hpp, image.hpp: read_png and write_png (libpng), read_pgm and write_pgm
 /// - io/image_file.hpp: read_image, a PNG or a PGM, by its first bytes
-/// - io/read_file.hpp, atomic_file.hpp, number.hpp: what the formats are made of
+/// - io/read_file.hpp, atomic_file.hpp, number.hpp, text_lines.hpp: what the formats are made of
 /// - io/input_error.hpp: the one exception
 ///
 /// Whatever is wrong with a file, missing, malformed, truncated, too large or hostile, throws InputError with
@@ -21,10 +24,12 @@
 #pragma once
 
 #include "incognita/io/atomic_file.hpp"
+#include "incognita/io/carmen_log.hpp"
 #include "incognita/io/floor_plan.hpp"
 #include "incognita/io/image.hpp"
 #include "incognita/io/image_file.hpp"
 #include "incognita/io/input_error.hpp"
+#include "incognita/io/intel_json.hpp"
 #include "incognita/io/kth_doors.hpp"
 #include "incognita/io/kth_floor.hpp"
 #include "incognita/io/kth_xml.hpp"
@@ -34,4 +39,8 @@
 #include "incognita/io/pgm.hpp"
 #include "incognita/io/png.hpp"
 #include "incognita/io/read_file.hpp"
+#include "incognita/io/relations.hpp"
+#include "incognita/io/robot_log.hpp"
+#include "incognita/io/robot_log_file.hpp"
+#include "incognita/io/text_lines.hpp"
 #include "incognita/io/tum.hpp"

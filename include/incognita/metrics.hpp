@@ -1,6 +1,8 @@
 /// The door of metrics/: what a mission was worth, in figures.
 ///
 /// - metrics/trajectory_error.hpp: RMSE and MAE of a trajectory, and its rigid alignment
+/// - metrics/relations_error.hpp: agreement with measured relations between poses (Kümmerle et al.)
+/// - metrics/stamps.hpp: poses of different trajectories that belong to one instant
 /// - metrics/nees.hpp: normalised estimation error squared
 /// - metrics/map_error.hpp: map error and map uncertainty of Seo et al., section VI-A
 /// - metrics/truth.hpp: the cells of a belief that are truly occupied
@@ -16,6 +18,8 @@
 #include "incognita/metrics/coverage.hpp"
 #include "incognita/metrics/map_error.hpp"
 #include "incognita/metrics/nees.hpp"
+#include "incognita/metrics/relations_error.hpp"
+#include "incognita/metrics/stamps.hpp"
 #include "incognita/metrics/trajectory_error.hpp"
 #include "incognita/metrics/truth.hpp"
 #include "incognita/metrics/visible_floor.hpp"
