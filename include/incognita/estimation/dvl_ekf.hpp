@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "incognita/estimation/estimator.hpp"
+#include "incognita/estimation/map_drift.hpp"
 #include "incognita/estimation/registration.hpp"
 #include "incognita/estimation/surface_map.hpp"
+#include "incognita/estimation/yaw_update.hpp"
 #include "incognita/grid/traversal.hpp"
 
 namespace incognita {
@@ -23,9 +25,9 @@ class DvlEkf {
 
   struct Params {
     PoseBelief start{{}, diagonal_covariance(1e-6, 1e-6, 1e-6)};
-    /// Q of (7). Larger than the odometry's own noise: errors of a map are correlated over scans, and a filter matched
-    /// to the odometry grows sure of them (reading of Seo et al.: NEES 200 to 1400).
-    MotionNoise noise{0.0632, 0.0632};
+    /// Q of (7): 0.01 m and 0.01 rad a scan at 10 Hz. A few times the noise of usual odometry: errors of a map are
+    /// correlated over scans, and a filter matched to the odometry grows sure of them.
+    MotionNoise noise{0.0316, 0.0316};
     /// The start pose defines the map's frame, so it is known: it is held for this many scans, or until odometry says
     /// that the robot has left it, while the first surfaces are measured from a pose without error.
     int start_scans_held = 20;
@@ -38,6 +40,7 @@ class DvlEkf {
     double decoupled_probability_min = 0.65;
     RegistrationParams registration;
     SurfaceMap<2>::Params surfaces;
+    MapDrift::Params drift;
     RayUpdateParams ray;  ///< for Form::ray
     /// For imagined scans: divided by the number of beams, so that little is learned where little is seen.
     RayUpdateParams imagined{{}, 1.2, Tempering::beams, MixtureVariance::squared_weights};
@@ -47,7 +50,12 @@ class DvlEkf {
 
   /// Throws std::invalid_argument for parameters outside of their bounds; the noise must be > 0.
   explicit DvlEkf(const Params& params)
-      : params_(params), belief_(params.start), driven_(params.start), surfaces_(params.surfaces) {
+      : params_(params),
+        belief_(params.start),
+        in_map_(params.start.covariance),
+        driven_(params.start),
+        surfaces_(params.surfaces),
+        drift_(params.drift) {
     require_belief("DvlEkf", params.start);
     require_positive("DvlEkf", "noise.position_m_per_sqrt_s", params.noise.position_m_per_sqrt_s);
     require_positive("DvlEkf", "noise.yaw_rad_per_sqrt_s", params.noise.yaw_rad_per_sqrt_s);
@@ -66,13 +74,16 @@ class DvlEkf {
   [[nodiscard]] const PoseBelief& belief() const { return belief_; }
   [[nodiscard]] const SurfaceMap<2>& surfaces() const { return surfaces_; }
 
+  /// The part of belief() that is the drift of the map around; the rest is the uncertainty in that map.
+  [[nodiscard]] const MapDrift& drift() const { return drift_; }
+
   /// False while the start pose is held.
   [[nodiscard]] bool is_ready() const { return scans_held_ >= params_.start_scans_held; }
 
   /// Throws std::invalid_argument unless the increment is finite and the duration finite and >= 0.
   void predict(const Pose2& increment, double duration_s) {
     require_motion("DvlEkf::predict", increment, duration_s);
-    belief_ = propagate(belief_, increment, params_.noise, duration_s);
+    believe(propagate({belief_.pose, in_map_}, increment, params_.noise, duration_s));
     if (!is_ready()) driven_ = propagate(driven_, increment, params_.noise, duration_s);
   }
 
@@ -82,11 +93,11 @@ class DvlEkf {
     if (!is_ready()) {
       if (stands_at_start()) {
         ++scans_held_;
-        belief_ = params_.start;
+        believe(params_.start);
         return {};
       }
       scans_held_ = params_.start_scans_held;
-      belief_ = driven_;
+      believe(driven_);
     }
     return params_.form == Form::registration ? correct_by_registration(scan, map) : correct_by_rays(scan, map);
   }
@@ -97,35 +108,30 @@ class DvlEkf {
   void learn(const Scan<Dim>& scan) {
     if (params_.form != Form::registration) return;
     const Eigen::Matrix2d rotation = belief_.pose.rotation();
+    const int piece = drift_.piece_of_scan(in_map_, belief_.pose.position());
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
       if (scan.reading(beam) != Reading::hit) continue;
       const Eigen::Vector2d direction = rotation * scan.direction(beam);
-      surfaces_.add(belief_.pose.position() + direction * scan.range_m(beam), direction);
+      surfaces_.add(belief_.pose.position() + direction * scan.range_m(beam), direction, piece);
     }
     surfaces_.refresh_normals();
   }
 
-  /// A heading measured directly (a compass, the paper's orientation aid of 0.01 rad): a scalar update in Joseph form.
+  /// A heading measured directly (a compass, the paper's orientation aid of 0.01 rad): a scalar update.
   /// Throws std::invalid_argument unless yaw_rad is finite and sigma_rad > 0.
   void correct_heading(double yaw_rad, double sigma_rad) {
     require(std::isfinite(yaw_rad), "DvlEkf::correct_heading", "yaw_rad", yaw_rad, "finite");
     require_positive("DvlEkf::correct_heading", "sigma_rad", sigma_rad);
     const double variance_rad2 = sigma_rad * sigma_rad;
     const Eigen::Matrix3d prior = belief_.covariance;
-    const double innovation_rad2 = prior(2, 2) + variance_rad2;
-    const double turn_rad = angle_between_rad(belief_.pose.yaw_rad, yaw_rad);
-    const auto gain = [&](int row) { return prior(row, 2) / innovation_rad2; };
-    // (I - K H) P (I - K H)^T + K R K^T for H = (0, 0, 1).
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column <= row; ++column) {
-        const double kept = prior(row, column) - gain(row) * prior(2, column) - gain(column) * prior(row, 2) +
-                            gain(row) * gain(column) * prior(2, 2);
-        belief_.covariance(row, column) = kept + gain(row) * gain(column) * variance_rad2;
-        belief_.covariance(column, row) = belief_.covariance(row, column);
-      }
-    }
-    belief_.pose = {belief_.pose.x_m + gain(0) * turn_rad, belief_.pose.y_m + gain(1) * turn_rad,
-                    wrap_angle_rad(belief_.pose.yaw_rad + gain(2) * turn_rad)};
+    const double turn_rad = angle_between_rad(belief_.pose.yaw_rad, yaw_rad) / (prior(2, 2) + variance_rad2);
+    const Pose2 pose{belief_.pose.x_m + prior(0, 2) * turn_rad, belief_.pose.y_m + prior(1, 2) * turn_rad,
+                     wrap_angle_rad(belief_.pose.yaw_rad + prior(2, 2) * turn_rad)};
+    // Both parts of the covariance learn from it, each taking the other for noise.
+    const double in_map_rad2 = in_map_(2, 2);
+    const Eigen::Matrix3d in_map = yaw_updated_covariance(in_map_, drift_.covariance()(2, 2) + variance_rad2);
+    drift_.correct_turn(in_map_rad2 + variance_rad2);
+    believe({pose, in_map});
   }
 
   [[nodiscard]] PoseBelief imagine_motion(const PoseBelief& belief, const Pose2& increment, double duration_s) const {
@@ -154,6 +160,30 @@ class DvlEkf {
            std::abs(angle_between_rad(start.yaw_rad, driven_.pose.yaw_rad)) <= params_.start_hold_turn_rad;
   }
 
+  /// The pose, with its covariance in the map around.
+  void believe(const PoseBelief& in_map) {
+    in_map_ = in_map.covariance;
+    belief_ = in_map;
+    add_to(belief_.covariance, drift_.covariance_at(in_map.pose.position()));
+  }
+
+  /// Registers to the oldest surfaces in sight from now on. A few beams are enough to tell which.
+  template <class Probability>
+  void choose_reference(const Scan<2>& scan, const Probability& occupied_probability) {
+    const Eigen::Vector2d origin = belief_.pose.position();
+    const Eigen::Matrix2d rotation = belief_.pose.rotation();
+    drift_.begin_matches(origin);
+    for (std::size_t beam = 0; beam < scan.size(); beam += reference_stride) {
+      if (scan.reading(beam) != Reading::hit) continue;
+      const Eigen::Vector2d direction = product(rotation, scan.direction(beam));
+      const Eigen::Vector2d end_point_m = sum(origin, scaled(direction, scan.range_m(beam)));
+      const SurfaceMatch match = match_surface(surfaces_, end_point_m, direction, params_.registration);
+      if (match.surface == nullptr || occupied_probability(*match.surface) < 0.0) continue;
+      drift_.add_match(match.surface->piece);
+    }
+    add_to(in_map_, drift_.choose_reference());
+  }
+
   template <class MapType>
   CorrectionReport correct_by_registration(const Scan<2>& scan, const MapType& map) {
     const auto probability = [&](const Surface<2>& surface) {
@@ -162,8 +192,14 @@ class DvlEkf {
       const double behind = map.probability(map.lattice().index_of(sum(surface.mean_m, scaled(surface.view, 0.1))));
       return admitted(std::max(at_face, behind));
     };
-    const Registration registration = register_scan(belief_, scan, surfaces_, probability, params_.registration);
-    belief_ = registration.belief;
+    choose_reference(scan, probability);
+    const auto excess_m2 = [&](const Surface<2>& surface, const Eigen::Vector3d& jacobian) {
+      return drift_.variance_beyond_reference_m2(surface.piece, jacobian);
+    };
+    const PoseBelief prior{belief_.pose, in_map_};
+    const Registration registration =
+        register_scan(prior, scan, surfaces_, probability, params_.registration, excess_m2);
+    believe(registration.belief);
     return {registration.associations, registration.residual_rms_m};
   }
 
@@ -189,7 +225,7 @@ class DvlEkf {
       });
     }
     if (hits.empty()) return {};
-    belief_ = ray_update(belief_, hits, scan.size(), params_.ray);
+    believe(ray_update({belief_.pose, in_map_}, hits, scan.size(), params_.ray));
     return {hits.size(), std::sqrt(squares_m2 / static_cast<double>(hits.size()))};
   }
 
@@ -198,12 +234,15 @@ class DvlEkf {
     return params_.coupled || probability > params_.decoupled_probability_min ? probability : -1.0;
   }
 
+  static constexpr std::size_t reference_stride = 4;  ///< beams
   static constexpr double ray_search_m = 1.0;  ///< how far behind a reading its cell may lie
 
   Params params_;
   PoseBelief belief_;
+  Eigen::Matrix3d in_map_;  ///< the covariance of belief_ without the map's drift
   PoseBelief driven_;  ///< by odometry alone, since the start, until ready
   SurfaceMap<2> surfaces_;
+  MapDrift drift_;
   int scans_held_ = 0;
 };
 

@@ -9,6 +9,7 @@
 
 #include "incognita/core/error.hpp"
 #include "incognita/geometry/pose.hpp"
+#include "incognita/geometry/vector.hpp"
 
 namespace incognita {
 
@@ -88,25 +89,36 @@ inline void require_motion(const char* where, const Pose2& increment, double dur
   return jacobian;
 }
 
+/// The covariance of a pose that is rigidly `lever_m` (in the map's axes) away from one of the given covariance, with the
+/// same heading: F P F^T for F = [1 0 -lever_y; 0 1 lever_x; 0 0 1].
+[[nodiscard]] inline Eigen::Matrix3d carried_covariance(const Eigen::Matrix3d& covariance,
+                                                        const Eigen::Vector2d& lever_m) {
+  const double a = -lever_m[1];
+  const double b = lever_m[0];
+  const double xt = covariance(0, 2) + a * covariance(2, 2);
+  const double yt = covariance(1, 2) + b * covariance(2, 2);
+  Eigen::Matrix3d carried;
+  carried(0, 0) = covariance(0, 0) + a * (covariance(0, 2) + xt);
+  carried(1, 1) = covariance(1, 1) + b * (covariance(1, 2) + yt);
+  carried(2, 2) = covariance(2, 2);
+  carried(0, 1) = carried(1, 0) = covariance(0, 1) + a * covariance(1, 2) + b * xt;
+  carried(0, 2) = carried(2, 0) = xt;
+  carried(1, 2) = carried(2, 1) = yt;
+  return carried;
+}
+
+/// sum += weight * term.
+inline void add_to(Eigen::Matrix3d& sum, const Eigen::Matrix3d& term, double weight = 1.0) {
+  for (int i = 0; i < 9; ++i) sum(i) += weight * term(i);
+}
+
 /// The prediction step, Seo et al., (7): the pose moves by `increment` (in the robot's frame) within duration_s.
 [[nodiscard]] inline PoseBelief propagate(const PoseBelief& belief, const Pose2& increment, const MotionNoise& noise,
                                           double duration_s) {
-  // F P F^T by coefficient: F is the identity but for its last column.
-  const Eigen::Matrix3d jacobian = motion_jacobian(belief.pose, increment);
-  const Eigen::Matrix3d& prior = belief.covariance;
-  const double a = jacobian(0, 2);
-  const double b = jacobian(1, 2);
+  // F_x is the identity but for the lever that the step puts between the old place and the new one.
   PoseBelief next{belief.pose * increment, noise.covariance(duration_s)};
-  Eigen::Matrix3d& covariance = next.covariance;
-  const double xt = prior(0, 2) + a * prior(2, 2);
-  const double yt = prior(1, 2) + b * prior(2, 2);
-  const double xy = prior(0, 1) + a * prior(1, 2) + b * xt;
-  covariance(0, 0) += prior(0, 0) + a * (prior(0, 2) + xt);
-  covariance(1, 1) += prior(1, 1) + b * (prior(1, 2) + yt);
-  covariance(2, 2) += prior(2, 2);
-  covariance(0, 1) = covariance(1, 0) = xy;
-  covariance(0, 2) = covariance(2, 0) = xt;
-  covariance(1, 2) = covariance(2, 1) = yt;
+  const Eigen::Vector2d step_m = difference(next.pose.position(), belief.pose.position());
+  add_to(next.covariance, carried_covariance(belief.covariance, step_m));
   return next;
 }
 

@@ -22,13 +22,18 @@ namespace incognita {
 struct RegistrationParams {
   DvlVariances dvl{0.01, 9.0};
   MixtureVariance mixture = MixtureVariance::squared_weights;
-  double gamma = 12.0;             ///< the weight of a whole scan, in beams; > 0
+  /// The weight of a whole scan, in beams of variance R_x; > 0. With R_o = (0.1 m)^2, 480 of them weigh as much as five
+  /// ranges with a noise of 0.01 m: the errors of a scan's beams against a map are far from independent.
+  double gamma = 480.0;
   int iterations = 2;              ///< >= 1
   double across_max_m = 0.3;       ///< a line (plane) is associated within this distance across ...
   double along_max_m = 0.25;       ///< ... and this distance along it
   double point_distance_max_m = 0.15;  ///< a point is, within this distance
   double point_weight = 0.5;       ///< of a point against a line
-  double huber_m = 0.01;           ///< residuals beyond this count less: edges of walls act as outliers
+  double along_weight = 0.05;      ///< of the squared distance along a line, against that across it, in the choice of one
+  /// Residuals beyond this count less and less (Cauchy's weights): the edges of walls act as outliers, and a kernel that
+  /// never lets go of them, as Huber's, lets the map drift twice as fast. About the noise of a range.
+  double residual_scale_m = 0.01;
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -39,14 +44,16 @@ struct RegistrationParams {
     require_positive("RegistrationParams", "along_max_m", along_max_m);
     require_positive("RegistrationParams", "point_distance_max_m", point_distance_max_m);
     require_positive("RegistrationParams", "point_weight", point_weight);
-    require_positive("RegistrationParams", "huber_m", huber_m);
+    require_non_negative("RegistrationParams", "along_weight", along_weight);
+    require_positive("RegistrationParams", "residual_scale_m", residual_scale_m);
   }
 };
 
 /// What register_scan found.
 struct Registration {
   PoseBelief belief;
-  std::size_t associations = 0;        ///< N_h: beams with a surface, in the last iteration
+  std::size_t hits = 0;                ///< beams that ended on something
+  std::size_t associations = 0;        ///< N_h: those with a surface, in the last iteration
   double residual_rms_m = 0.0;         ///< of those beams, in the last iteration
 };
 
@@ -58,7 +65,7 @@ struct SurfaceMatch {
 };
 
 /// The best surface for an end point seen along `direction`, both in the map's frame: the line with the smallest
-/// r^2 + t^2/4 (r across, t along it), else the nearest point of the same side.
+/// r^2 + along_weight t^2 (r across, t along it), else the nearest point of the same side.
 [[nodiscard]] inline SurfaceMatch match_surface(const SurfaceMap<2>& surfaces, const Eigen::Vector2d& end_point_m,
                                                 const Eigen::Vector2d& direction, const RegistrationParams& params) {
   SurfaceMatch line{nullptr, true};
@@ -72,7 +79,7 @@ struct SurfaceMatch {
     if (surface.planar) {
       const double across_m = dot(surface.normal, offset_m);
       const double along_m2 = distance_m2 - across_m * across_m;
-      const double cost_m2 = across_m * across_m + 0.25 * along_m2;
+      const double cost_m2 = across_m * across_m + params.along_weight * along_m2;
       if (std::abs(across_m) <= params.across_max_m && along_m2 <= params.along_max_m * params.along_max_m &&
           cost_m2 < line_cost_m2) {
         line_cost_m2 = cost_m2;
@@ -87,7 +94,8 @@ struct SurfaceMatch {
   return line.surface != nullptr ? line : point;
 }
 
-/// The derivative of an end point in the map's frame by (x, y, yaw), projected on `axis`.
+/// The derivative of an end point in the map's frame by (x, y, yaw), projected on `axis`; `rotated_m` is the way to it from
+/// the robot (by a twist: from the origin).
 [[nodiscard]] inline Eigen::Vector3d end_point_jacobian(const Eigen::Vector2d& axis, const Eigen::Vector2d& rotated_m) {
   return {axis[0], axis[1], axis[1] * rotated_m[0] - axis[0] * rotated_m[1]};
 }
@@ -100,24 +108,35 @@ template <class Matrix, class Vector>
   return posterior * (tempered * (information * from_prior + gradient));
 }
 
+/// No surface is less certain than another but by its belief.
+struct NoExcessVariance {
+  [[nodiscard]] double operator()(const Surface<2>& /*surface*/, const Eigen::Vector3d& /*jacobian*/) const { return 0.0; }
+};
+
 /// Minimises the prior's Mahalanobis distance plus the tempered, robust distances of the end points to their surfaces,
-///   (gamma / N_h) sum_k w_k r_k^2 / R_x,
+///   sum_k w_k r_k^2 / (N_h (R_x / gamma + E_k)),
 /// with R_x of Seo et al., (10), from occupied_probability(surface) in [0, 1]; a probability < 0 leaves the surface out.
+/// E_k = excess_variance_m2(surface, jacobian), the variance that the surface itself has along the residual (0 by
+/// default), is not tempered by gamma: beams do not average an error that their surfaces share. `jacobian` is the
+/// residual's derivative by a twist of the surface about the map's origin.
 /// The paper allows for such a registration in the estimation step (section IV-B, property 4); points on lines are the
 /// reading's answer to residuals that snap to a lattice. Without associations the posterior is the prior.
 /// O(beams * iterations); no allocation; safe to call from many threads.
-template <class Probability>
+template <class Probability, class ExcessVariance = NoExcessVariance>
 [[nodiscard]] Registration register_scan(const PoseBelief& prior, const Scan<2>& scan, const SurfaceMap<2>& surfaces,
-                                         Probability&& occupied_probability, const RegistrationParams& params) {
-  Registration result{prior, 0, 0.0};
+                                         Probability&& occupied_probability, const RegistrationParams& params,
+                                         ExcessVariance&& excess_variance_m2 = {}) {
+  Registration result{prior, 0, 0, 0.0};
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
     const Eigen::Matrix2d rotation = result.belief.pose.rotation();
     const Eigen::Vector2d origin = result.belief.pose.position();
     Information information;
+    std::size_t hits = 0;
     std::size_t associations = 0;
     double squares_m2 = 0.0;
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
       if (scan.reading(beam) != Reading::hit) continue;
+      ++hits;
       const Eigen::Vector2d direction = product(rotation, scan.direction(beam));
       const Eigen::Vector2d rotated_m = scaled(direction, scan.range_m(beam));
       const Eigen::Vector2d end_point_m = sum(origin, rotated_m);
@@ -126,20 +145,27 @@ template <class Probability>
       const double probability = occupied_probability(*match.surface);
       if (probability < 0.0) continue;
       const Eigen::Vector2d offset_m = difference(end_point_m, match.surface->mean_m);
-      const double precision = 1.0 / measurement_variance_m2(params.dvl, probability, params.mixture);
+      const double variance_m2 = measurement_variance_m2(params.dvl, probability, params.mixture);
       const double residual_m = match.is_line ? dot(match.surface->normal, offset_m) : norm(offset_m);
-      const double robust = std::min(1.0, params.huber_m / std::max(std::abs(residual_m), 1e-12));
+      const double scaled_residual = residual_m / params.residual_scale_m;
+      const double robust = 1.0 / (1.0 + scaled_residual * scaled_residual);
+      const auto weight = [&](const Eigen::Vector2d& axis) {
+        const double excess_m2 = excess_variance_m2(*match.surface, end_point_jacobian(axis, end_point_m));
+        return robust / (variance_m2 + params.gamma * excess_m2);
+      };
       ++associations;
       squares_m2 += residual_m * residual_m;
       if (match.is_line) {
-        information.add(end_point_jacobian(match.surface->normal, rotated_m), -residual_m, robust * precision);
+        information.add(end_point_jacobian(match.surface->normal, rotated_m), -residual_m, weight(match.surface->normal));
       } else {
-        const double weight = params.point_weight * robust * precision;
-        information.add(end_point_jacobian({1.0, 0.0}, rotated_m), -offset_m[0], weight);
-        information.add(end_point_jacobian({0.0, 1.0}, rotated_m), -offset_m[1], weight);
+        const Eigen::Vector2d x_axis(1.0, 0.0);
+        const Eigen::Vector2d y_axis(0.0, 1.0);
+        information.add(end_point_jacobian(x_axis, rotated_m), -offset_m[0], params.point_weight * weight(x_axis));
+        information.add(end_point_jacobian(y_axis, rotated_m), -offset_m[1], params.point_weight * weight(y_axis));
       }
     }
-    if (associations == 0) return {prior, 0, 0.0};
+    result.hits = hits;
+    if (associations == 0) return {prior, hits, 0, 0.0};
     const double tempered = params.gamma / static_cast<double>(associations);
     const Eigen::Vector3d from_prior(result.belief.pose.x_m - prior.pose.x_m, result.belief.pose.y_m - prior.pose.y_m,
                                      angle_between_rad(prior.pose.yaw_rad, result.belief.pose.yaw_rad));

@@ -21,6 +21,7 @@ struct Surface {
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
 
   int count = 0;
+  int piece = 0;  ///< the piece of the map that it was first seen with, see MapDrift
   Point<Dim> mean_m = Point<Dim>::Zero();
   Matrix scatter_m2 = Matrix::Zero();      ///< the sum of outer products of deviations from the mean
   Point<Dim> view = Point<Dim>::Zero();    ///< the mean direction of the beams that ended here
@@ -80,8 +81,8 @@ class SurfaceMap {
   void reserve(const Box<Point<Dim>>& box_m) { slots_.grow_to_include(slots_.lattice().cells_of(box_m)); }
 
   /// Adds the end point of a beam of the given unit direction. The point must be finite and within the lattice's
-  /// reach. Normals are brought up to date by refresh_normals.
-  void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
+  /// reach. A surface keeps the `piece` it was first seen with. Normals are brought up to date by refresh_normals.
+  void add(const Point<Dim>& point_m, const Point<Dim>& direction, int piece = 0) {
     const Index<Dim> index = slots_.lattice().index_of(point_m);
     if (!slots_.contains(index)) slots_.grow_to_include(box_of_cell<Dim>(index));
     std::int32_t& slot = slots_[slots_.offset_of(index)];
@@ -92,7 +93,10 @@ class SurfaceMap {
     Cell& cell = cells_[static_cast<std::size_t>(slot)];
     Surface<Dim>* surface = side_of(cell, direction);
     if (surface == nullptr || surface->count >= params_.count_max) return;
-    if (surface->count == 0) ++size_;
+    if (surface->count == 0) {
+      ++size_;
+      surface->piece = piece;
+    }
     surface->add(point_m, direction);
     changed_.push_back({index, static_cast<int>(surface - cell.sides.data())});
   }

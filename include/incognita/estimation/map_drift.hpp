@@ -1,0 +1,128 @@
+/// How far a map that is built while localising in it may have drifted, piece by piece.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "incognita/core/error.hpp"
+#include "incognita/estimation/pose_belief.hpp"
+#include "incognita/estimation/yaw_update.hpp"
+#include "incognita/geometry/vector.hpp"
+
+namespace incognita {
+
+/// Surfaces that are measured from a wrong pose are wrong by that pose's error, and whoever registers to them later cannot
+/// do better. The error is a twist (v_x, v_y, omega) about the map's origin: the robot's motion does not change it, a
+/// pose registered to a piece of the map takes it over, and so do surfaces learned from there. So a pose's covariance has
+/// two parts: that of the pose in the piece it is registered to, which scans reduce, and the drift of that piece, which
+/// only older pieces reduce. Each piece stands for the surfaces first seen within a few scans; its drift is that of the
+/// reference at its birth plus a share of the pose's covariance in it. Pieces with less drift than others are older
+/// links of the chain, so two pieces differ by the difference of their covariances. Not thread safe.
+class MapDrift {
+ public:
+  struct Params {
+    /// How much of the pose's covariance a new piece takes over. Not all: its surfaces are means over many scans, whose
+    /// errors are independent after a few of them. 0 switches the model off: the map is taken for the truth.
+    double inherited_share = 0.1;
+    /// The reference is the piece below which this share of the matched beams falls, by drift: the oldest in sight, but not
+    /// one that a few wrong matches suggest. In [0, 1].
+    double reference_quantile = 0.1;
+    int scans_per_piece = 10;  ///< >= 1; memory is 72 bytes a piece
+
+    /// Throws std::invalid_argument for values outside of their bounds.
+    void validate() const {
+      require_non_negative("MapDrift", "inherited_share", inherited_share);
+      require(reference_quantile >= 0.0 && reference_quantile <= 1.0, "MapDrift", "reference_quantile",
+              reference_quantile, "in [0, 1]");
+      require(scans_per_piece >= 1, "MapDrift", "scans_per_piece", scans_per_piece, ">= 1");
+    }
+  };
+
+  MapDrift() = default;
+
+  /// Throws std::invalid_argument for parameters outside of their bounds.
+  explicit MapDrift(const Params& params) : params_(params) { params_.validate(); }
+
+  /// The drift of the reference: a covariance of twists.
+  [[nodiscard]] const Eigen::Matrix3d& covariance() const { return reference_; }
+
+  /// What the reference's drift makes of a pose registered to it, at `position_m`: to be added to its own covariance.
+  [[nodiscard]] Eigen::Matrix3d covariance_at(const Eigen::Vector2d& position_m) const {
+    return carried_covariance(reference_, position_m);
+  }
+
+  /// The piece that surfaces learned by this scan belong to. `covariance` is the pose's in the reference.
+  [[nodiscard]] int piece_of_scan(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& position_m) {
+    if (scans_++ % params_.scans_per_piece == 0) {
+      Eigen::Matrix3d born = reference_;
+      add_to(born, carried_covariance(covariance, {-position_m[0], -position_m[1]}), params_.inherited_share);
+      pieces_.push_back(born);
+    }
+    return static_cast<int>(pieces_.size()) - 1;
+  }
+
+  /// The number of pieces.
+  [[nodiscard]] std::size_t size() const { return pieces_.size(); }
+
+  /// Begins the choice of a reference for a pose at position_m.
+  void begin_matches(const Eigen::Vector2d& position_m) {
+    position_m_ = position_m;
+    matched_.clear();
+  }
+
+  void add_match(int piece) {
+    matched_.emplace_back(position_variance_m2(pieces_[static_cast<std::size_t>(piece)]), piece);
+  }
+
+  /// Makes the chosen piece the reference, and returns what its choice adds to the pose's covariance: the old reference's
+  /// drift beyond the new one's. Nothing changes without matches.
+  [[nodiscard]] Eigen::Matrix3d choose_reference() {
+    Eigen::Matrix3d added = Eigen::Matrix3d::Zero();
+    if (matched_.empty()) return added;
+    const auto rank = static_cast<std::ptrdiff_t>(params_.reference_quantile * static_cast<double>(matched_.size() - 1));
+    std::nth_element(matched_.begin(), matched_.begin() + rank, matched_.end());
+    const auto [chosen_m2, piece] = matched_[static_cast<std::size_t>(rank)];
+    const double old_m2 = position_variance_m2(reference_);
+    // In proportion, which is positive semi-definite whatever the two covariances' shapes.
+    if (old_m2 > chosen_m2) add_to(added, covariance_at(position_m_), 1.0 - chosen_m2 / old_m2);
+    reference_ = pieces_[static_cast<std::size_t>(piece)];
+    return added;
+  }
+
+  /// The reference's turn was measured, with this variance.
+  void correct_turn(double variance_rad2) { reference_ = yaw_updated_covariance(reference_, variance_rad2); }
+
+  /// The variance of a residual that drifts with `piece`, beyond the reference's; `jacobian` is the residual's derivative by
+  /// the twist.
+  [[nodiscard]] double variance_beyond_reference_m2(int piece, const Eigen::Vector3d& jacobian) const {
+    const Eigen::Matrix3d& drift = pieces_[static_cast<std::size_t>(piece)];
+    double variance_m2 = 0.0;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        variance_m2 += jacobian[row] * (drift(row, column) - reference_(row, column)) * jacobian[column];
+      }
+    }
+    return std::max(0.0, variance_m2);
+  }
+
+ private:
+  /// The sum of the variances of the two coordinates, at the position that is being matched.
+  [[nodiscard]] double position_variance_m2(const Eigen::Matrix3d& drift) const {
+    const double x = position_m_[0];
+    const double y = position_m_[1];
+    return drift(0, 0) + drift(1, 1) + 2.0 * (x * drift(1, 2) - y * drift(0, 2)) + (x * x + y * y) * drift(2, 2);
+  }
+
+  Params params_;
+  Eigen::Matrix3d reference_ = Eigen::Matrix3d::Zero();
+  std::vector<Eigen::Matrix3d> pieces_;
+  std::vector<std::pair<double, int>> matched_;  // drift at the position, piece
+  Eigen::Vector2d position_m_{0.0, 0.0};
+  long scans_ = 0;
+};
+
+}  // namespace incognita
