@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -23,6 +22,7 @@
 #include "kth_explorer/options.hpp"
 #include "kth_explorer/results.hpp"
 #include "support/output_folder.hpp"
+#include "support/program.hpp"
 
 namespace kth_explorer {
 namespace {
@@ -114,7 +114,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   write_file_atomically(output.staged("progress.csv"), progress_csv(record));
   write_tum(output.staged("trajectory_estimated.tum"), record.estimated);
   write_tum(output.staged("trajectory_true.tum"), record.truth);
-  write_map(output.staged("map.yaml"), explorer.map(), explorer.params().thresholds);
+  examples::write_map(output.staged("map.yaml"), explorer.map(), explorer.params().thresholds);
   draw_overview(output.staged("overview.png"), explorer.map(), simulator.world().plan(), T_world_start, record);
   output.publish();
   if (!options.quiet) print_table(metrics, output.path());
@@ -143,30 +143,8 @@ void run(const Options& options) {
 }  // namespace kth_explorer
 
 int main(int argc, char** argv) {
-  const auto refuse = [](const std::exception& error) {
-    std::cerr << "kth_explorer: " << error.what() << '\n';
-    return 2;
-  };
   CLI::App app("A simulated robot explores a floor plan: it maps, localises, and decides where to go by the information\n"
                "it expects. Writes metrics.json, map.yaml and map.png, both trajectories, decisions.csv, progress.csv\n"
                "and overview.png.");
-  try {
-    kth_explorer::run(kth_explorer::parse_options(app, argc, argv));
-  } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error) : refuse(error);
-  } catch (const incognita::InputError& error) {
-    return refuse(error);
-  } catch (const std::invalid_argument& error) {
-    return refuse(error);
-  } catch (const examples::OutputError& error) {
-    return refuse(error);
-  } catch (const std::exception& error) {
-    std::cerr << "kth_explorer: " << error.what() << '\n';
-    return 1;
-  }
-  if (std::fflush(stdout) != 0 || !std::cout.flush()) {
-    std::cerr << "kth_explorer: cannot write to the standard output\n";
-    return 1;
-  }
-  return 0;
+  return examples::run_program("kth_explorer", app, [&] { kth_explorer::run(kth_explorer::parse_options(app, argc, argv)); });
 }

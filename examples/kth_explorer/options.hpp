@@ -5,12 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
+
+#include "support/arguments.hpp"
 
 namespace kth_explorer {
 
@@ -30,29 +31,6 @@ struct Options {
   bool quiet = false;
 };
 
-/// A point written as X,Y. Throws CLI::ValidationError.
-[[nodiscard]] inline Eigen::Vector2d parse_point(const std::string& text) {
-  const auto number = [&](const std::string& part) {
-    std::size_t used = 0;
-    double value = 0.0;
-    try {
-      value = std::stod(part, &used);
-    } catch (const std::logic_error&) {
-      used = 0;
-    }
-    if (used == 0 || used != part.size() || !std::isfinite(value)) {
-      throw CLI::ValidationError("--start: \"" + text + "\" is not of the form X,Y with finite numbers in metres");
-    }
-    return value;
-  };
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) number("");
-  return {number(text.substr(0, comma)), number(text.substr(comma + 1))};
-}
-
-/// A CLI11 check: an empty text is most likely a variable that is not set.
-[[nodiscard]] inline std::string refuse_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
-
 /// A CLI11 check: CLI11 itself wraps -1 around and clamps what is too large.
 [[nodiscard]] inline std::string refuse_bad_seed(const std::string& text) {
   std::uint64_t seed = 0;
@@ -67,7 +45,7 @@ struct Options {
   std::string start;
   app.add_option("--map", options.map_file, "floor plan; without it, the embedded office floor of 55 x 25 m")
       ->type_name("FILE.yaml|FILE.xml")
-      ->check(refuse_empty);
+      ->check(examples::refuse_empty);
   app.add_option("--cells", options.cells, "how a cell of the belief is updated")
       ->check(CLI::IsMember({"tbayes", "log-odds"}))
       ->capture_default_str();
@@ -92,7 +70,7 @@ struct Options {
       ->capture_default_str();
   app.add_option("--start", start, "start in the map file's frame, in metres; without it, a seeded place in the largest region")
       ->type_name("X,Y")
-      ->check(refuse_empty);
+      ->check(examples::refuse_empty);
   app.add_option("--resolution", options.resolution_m, "side of a cell of the belief, in metres, 0.02 to 1")
       ->type_name("M")
       ->capture_default_str();
@@ -114,7 +92,10 @@ struct Options {
           "--duration: " + shown(options.duration_s) + " s is not in (0, 1e7]");
   require(options.resolution_m >= 0.02 && options.resolution_m <= 1.0,
           "--resolution: " + shown(options.resolution_m) + " m is not in 0.02..1");
-  if (!start.empty()) options.start_m = parse_point(start);
+  if (!start.empty()) {
+    const auto [x_m, y_m] = examples::parse_numbers<2>("--start", start, "X,Y with finite numbers in metres");
+    options.start_m = Eigen::Vector2d(x_m, y_m);
+  }
   return options;
 }
 

@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include "incognita/io/atomic_file.hpp"
-#include "incognita/io/map_server.hpp"
 #include "incognita/io/tum.hpp"
 #include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
+#include "support/belief_output.hpp"
 #include "support/drawing.hpp"
 
 namespace kth_explorer {
@@ -110,12 +110,7 @@ void draw_overview(const std::filesystem::path& file, const Map& map, const inco
   const Eigen::Vector2d origin = plan.lattice().origin_m();
   examples::Drawing drawing({origin + box.lower.template cast<double>() * resolution_m - margin,
                              origin + box.upper.template cast<double>() * resolution_m + margin});
-  drawing.raster(map.grid(), T_world_start, [&](const typename Map::State& state) {
-    const double free = 1.0 - incognita::probability_of_log_odds(static_cast<double>(Map::CellType::log_odds(state)));
-    // Unknown is a bluish grey, so that it is told from what is half known.
-    if (Map::CellType::log_odds(state) == 0.0F) return Color{0.78, 0.81, 0.85};
-    return Color{free, free, free};
-  });
+  examples::draw_belief(drawing, map, T_world_start);
   drawing.raster(plan, incognita::Pose2{}, [&](FloorCell cell) { return cell == FloorCell::wall ? wall : examples::transparent; });
 
   const auto in_world = [&](const std::vector<incognita::TimedPose2>& trajectory) {
@@ -133,30 +128,12 @@ void draw_overview(const std::filesystem::path& file, const Map& map, const inco
   using examples::Swatch;
   drawing.legend({{"believed occupied", {0.0, 0.0, 0.0}, Swatch::area},
                   {"free", {1.0, 1.0, 1.0}, Swatch::area},
-                  {"never seen", {0.78, 0.81, 0.85}, Swatch::area},
+                  {"never seen", examples::never_seen, Swatch::area},
                   {"true wall", wall, Swatch::area},
                   {"true path", true_path, Swatch::line},
                   {"estimated path", estimated_path, Swatch::line},
                   {"last frontiers", frontier, Swatch::dot}});
   drawing.write_png(file);
-}
-
-/// The map as map_server takes it: free, occupied and unknown by the explorer's thresholds, cut to what was touched.
-template <class Map>
-void write_map(const std::filesystem::path& yaml_file, const Map& map, const incognita::OccupancyThresholds& thresholds) {
-  using incognita::Index;
-  incognita::IndexBox<2> touched;
-  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(map.grid().size()); ++cell) {
-    if (map.log_odds(cell) == 0.0F) continue;
-    const Index<2> index = map.grid().index_at(cell);
-    touched = enclosing_box(touched, {index, (index.array() + 1).matrix()});
-  }
-  incognita::ProbabilityGrid grid(map.lattice(), touched, incognita::unknown_probability);
-  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(grid.size()); ++cell) {
-    const incognita::Occupancy occupancy = thresholds.classify(map.log_odds(grid.index_at(cell)));
-    if (occupancy != incognita::Occupancy::unknown) grid[cell] = occupancy == incognita::Occupancy::occupied ? 1.0F : 0.0F;
-  }
-  write_map_server(yaml_file, grid);
 }
 
 }  // namespace kth_explorer

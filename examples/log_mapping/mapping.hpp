@@ -1,0 +1,96 @@
+/// A log, mapped scan by scan.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "incognita/estimation/dvl_ekf.hpp"
+#include "incognita/geometry/box.hpp"
+#include "incognita/io/input_error.hpp"
+#include "incognita/io/number.hpp"
+#include "incognita/io/robot_log.hpp"
+#include "incognita/io/tum.hpp"
+#include "incognita/map/map.hpp"
+
+namespace log_mapping {
+
+/// The estimator for logs of real robots, whose scans often lie half a metre and some seconds apart: odometry errs by
+/// 0.1 m and 0.1 rad from one to the next, so that registration starts far off and takes more iterations, and real walls
+/// are not as sharp as drawn ones.
+[[nodiscard]] inline incognita::DvlEkf::Params log_filter_params() {
+  incognita::DvlEkf::Params params;
+  params.noise = {0.0632, 0.0632};
+  params.registration.iterations = 8;
+  params.registration.gamma = 200.0;
+  params.registration.residual_scale_m = 0.02;
+  params.surfaces.count_max = 200;
+  return params;
+}
+
+/// Whether a correction rested on too little to be trusted.
+[[nodiscard]] inline bool is_lost(const incognita::CorrectionReport& report, const incognita::Scan<2>& scan) {
+  std::size_t hits = 0;
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) hits += scan.reading(beam) == incognita::Reading::hit;
+  return 5 * report.associations < hits;
+}
+
+/// What mapping a log leaves. Trajectories are the robot's, in the map's frame.
+struct MappingRecord {
+  std::vector<incognita::TimedPose2> estimated;
+  std::vector<incognita::TimedPose2> odometry;  ///< from the same start
+  std::size_t lost_scans = 0;
+  double distance_m = 0.0;   ///< by odometry
+  double wall_time_s = 0.0;  ///< of estimation and mapping, without files
+};
+
+/// Maps a log by odometry and scans alone. `filter` starts at the first scan, with its belief at the laser's pose in the
+/// map's frame; `file` is named in errors. Throws incognita::InputError when odometry leads so far away that the map
+/// would not fit into memory.
+template <class Map, class Filter>
+[[nodiscard]] MappingRecord map_log(const incognita::RobotLog& log, const std::filesystem::path& file, Map& map,
+                                    Filter& filter) {
+  using namespace incognita;
+  constexpr double cells_max = 1 << 26;
+  const Pose2 T_laser_robot = log.T_robot_laser.inverse();
+  const Pose2 T_map_odom = filter.belief().pose * T_laser_robot * log.scans.front().T_odom_robot.inverse();
+  MappingRecord record;
+  Scan<2> scan(log.beams);
+  Pose2 T_odom_laser = log.scans.front().T_odom_robot * log.T_robot_laser;
+  double time_s = log.scans.front().time_s;
+  Box<Point<2>> reach_m{filter.belief().pose.position(), filter.belief().pose.position()};
+  const auto begin = std::chrono::steady_clock::now();
+  for (const LogScan& entry : log.scans) {
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) scan.set_range_m(beam, entry.ranges_m[beam]);
+    const Pose2 T_odom_next = entry.T_odom_robot * log.T_robot_laser;
+    const Pose2 increment = T_odom_laser.inverse() * T_odom_next;
+    filter.predict(increment, entry.time_s - time_s);
+    const CorrectionReport report = filter.correct(scan, map);
+    if (filter.is_ready() && is_lost(report, scan)) ++record.lost_scans;
+
+    const Point<2> margin_m = Point<2>::Constant(scan.range_max_m());
+    reach_m.stretch_to(filter.belief().pose.position() - margin_m);
+    reach_m.stretch_to(filter.belief().pose.position() + margin_m);
+    if (!(reach_m.extent().prod() <= cells_max * map.resolution_m() * map.resolution_m())) {
+      throw InputError(file, "at time " + format_number(entry.time_s) + " the scans span " +
+                                 format_number(std::round(reach_m.extent().x())) + " x " +
+                                 format_number(std::round(reach_m.extent().y())) + " m, which is more than " +
+                                 format_number(cells_max) + " cells of the map");
+    }
+    map.update(scan, filter.belief().pose, filter.belief().covariance);
+    filter.learn(scan);
+
+    record.distance_m += norm(increment.position());
+    record.estimated.push_back({entry.time_s, filter.belief().pose * T_laser_robot});
+    record.odometry.push_back({entry.time_s, T_map_odom * entry.T_odom_robot});
+    T_odom_laser = T_odom_next;
+    time_s = entry.time_s;
+  }
+  record.wall_time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return record;
+}
+
+}  // namespace log_mapping

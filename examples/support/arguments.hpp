@@ -1,0 +1,40 @@
+/// Checks of command line arguments that CLI11 does not have.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "incognita/io/number.hpp"
+
+namespace examples {
+
+/// A CLI11 check: an empty text is most likely a variable that is not set.
+[[nodiscard]] inline std::string refuse_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
+
+/// The numbers of a text that separates them by commas. `form` says what they are, as "X,Y with finite numbers in metres".
+/// Throws CLI::ValidationError unless there are Count of them and all are finite.
+template <std::size_t Count>
+[[nodiscard]] std::array<double, Count> parse_numbers(const std::string& option, const std::string& text,
+                                                      const std::string& form) {
+  std::array<double, Count> numbers{};
+  std::string_view unread = text;
+  for (std::size_t i = 0; i < Count; ++i) {
+    const bool last = i + 1 == Count;
+    const std::size_t comma = last ? unread.size() : unread.find(',');
+    const std::optional<double> number = incognita::parse_number(unread.substr(0, comma));
+    if (comma == std::string_view::npos || !number || !std::isfinite(*number)) {
+      throw CLI::ValidationError(option + ": \"" + text + "\" is not of the form " + form);
+    }
+    numbers[i] = *number;
+    if (!last) unread.remove_prefix(comma + 1);
+  }
+  return numbers;
+}
+
+}  // namespace examples

@@ -1,0 +1,51 @@
+/// A belief over the occupancy of the world as a file and in a picture.
+#pragma once
+
+#include <filesystem>
+
+#include "incognita/geometry/pose2.hpp"
+#include "incognita/io/map_server.hpp"
+#include "incognita/map/map.hpp"
+#include "incognita/map/occupancy.hpp"
+#include "support/drawing.hpp"
+
+namespace examples {
+
+/// Unknown is a bluish grey, so that it is told from what is half known.
+inline constexpr Color never_seen{0.78, 0.81, 0.85};
+
+/// Draws the cells from white (free) to black (occupied).
+template <class Map>
+void draw_belief(Drawing& drawing, const Map& map, const incognita::Pose2& T_world_map) {
+  drawing.raster(map.grid(), T_world_map, [&](const typename Map::State& state) {
+    const float log_odds = Map::CellType::log_odds(state);
+    if (log_odds == 0.0F) return never_seen;
+    const double free = 1.0 - incognita::probability_of_log_odds(static_cast<double>(log_odds));
+    return Color{free, free, free};
+  });
+}
+
+/// The cells that were measured, as a box.
+template <class Map>
+[[nodiscard]] incognita::IndexBox<2> touched_cells(const Map& map) {
+  incognita::IndexBox<2> touched;
+  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(map.grid().size()); ++cell) {
+    if (map.log_odds(cell) == 0.0F) continue;
+    const incognita::Index<2> index = map.grid().index_at(cell);
+    touched = enclosing_box(touched, {index, (index.array() + 1).matrix()});
+  }
+  return touched;
+}
+
+/// The map as map_server takes it: free, occupied and unknown by the thresholds, cut to what was touched.
+template <class Map>
+void write_map(const std::filesystem::path& yaml_file, const Map& map, const incognita::OccupancyThresholds& thresholds) {
+  incognita::ProbabilityGrid grid(map.lattice(), touched_cells(map), incognita::unknown_probability);
+  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(grid.size()); ++cell) {
+    const incognita::Occupancy occupancy = thresholds.classify(map.log_odds(grid.index_at(cell)));
+    if (occupancy != incognita::Occupancy::unknown) grid[cell] = occupancy == incognita::Occupancy::occupied ? 1.0F : 0.0F;
+  }
+  write_map_server(yaml_file, grid);
+}
+
+}  // namespace examples
