@@ -48,7 +48,8 @@ class IntelJsonHandler {
   }
 
   bool end_object() {
-    if (depth_-- == 3) end_scan();
+    if (depth_ == 3) end_scan();
+    --depth_;
     return true;
   }
 

@@ -97,8 +97,8 @@ inline constexpr double log_position_max_m = 1e6;
 /// LMS by 8183 to 8191, in centimetres or in millimetres), or clip it to their range. Either shows as a pile: readings
 /// within 0.2 % of the largest are codes when there are at least 10 of them and they are ten times as dense as those down
 /// to nine tenths of it. Where a far wall passes for a code, only what lies within 0.2 % of it is lost. All other
-/// readings are usable: usable_m lies just above the largest of them. Values that are not finite or not positive are
-/// ignored; without any other, usable_m is 0.
+/// readings are usable: usable_m lies just above the largest of them. Where no others are there are no codes. Values that
+/// are not finite or not positive are ignored; without any other, usable_m is 0.
 [[nodiscard]] inline RangeLimits detect_range_limits(const std::vector<LogScan>& scans) {
   constexpr double infinite_m = std::numeric_limits<double>::infinity();
   const auto largest_below = [&](double bound_m) {
@@ -132,8 +132,9 @@ inline constexpr double log_position_max_m = 1e6;
   // Densities are counts over widths: 0.2 % and 9.8 % of the largest.
   const bool ten_times_as_dense = static_cast<double>(in_pile) / (1.0 - pile) >=
                                   10.0 * static_cast<double>(under_pile) / (pile - below);
-  if (in_pile < 10 || !ten_times_as_dense) return {infinite_m, usable(largest_m)};
-  return {lowest_m, usable(largest_below(lowest_m))};
+  const double largest_usable_m = largest_below(lowest_m);
+  if (in_pile < 10 || !ten_times_as_dense || largest_usable_m == 0.0) return {infinite_m, usable(largest_m)};
+  return {lowest_m, usable(largest_usable_m)};
 }
 
 namespace detail {
