@@ -234,6 +234,28 @@ class BruteForce {
   std::vector<long> scores_;
 };
 
+/// Requires a search to find what looking at every pose finds; returns how many candidates.
+std::size_t compare(CorrelativeSearch<2>& search, const Scan<2>& scan, const SurfaceMap<2>& surfaces,
+                    const Pose2& center, const Eigen::Matrix3d* covariance, const SearchWindow& window) {
+  const BruteForce every(scan, surfaces, center, covariance, window, search.params());
+  const std::vector<BruteForce::Found> expected = every.candidates();
+  const std::vector<SearchCandidate>& found =
+      covariance != nullptr ? search.find(scan, surfaces, PoseBelief{center, *covariance}, window)
+                            : search.find(scan, surfaces, center, window);
+  CAPTURE(covariance != nullptr, window.x_m, window.y_m, window.yaw_rad);
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    CAPTURE(i);
+    const Pose2 pose = every.pose(center, expected[i]);
+    REQUIRE(found[i].score == Approx(expected[i].score).epsilon(1e-12));
+    REQUIRE(found[i].objective == Approx(expected[i].objective).epsilon(1e-12).margin(1e-12));
+    REQUIRE(found[i].pose.x_m == Approx(pose.x_m).margin(1e-12));
+    REQUIRE(found[i].pose.y_m == Approx(pose.y_m).margin(1e-12));
+    REQUIRE(std::abs(angle_between_rad(found[i].pose.yaw_rad, pose.yaw_rad)) < 1e-12);
+  }
+  return found.size();
+}
+
 }  // namespace
 
 TEST_CASE("A search finds what looking at every pose finds", "[estimation]") {
@@ -259,27 +281,31 @@ TEST_CASE("A search finds what looking at every pose finds", "[estimation]") {
 
     CorrelativeSearch<2> search(params);
     const Eigen::Matrix3d covariance = room::random_covariance(random, draw % 4 == 0 ? 0.05 : 0.3);
-    for (const bool with_prior : {false, true}) {
-      const BruteForce every(scan, surfaces, center, with_prior ? &covariance : nullptr, window, params);
-      const std::vector<BruteForce::Found> expected = every.candidates();
-      const std::vector<SearchCandidate>& found =
-          with_prior ? search.find(scan, surfaces, PoseBelief{center, covariance}, window)
-                     : search.find(scan, surfaces, center, window);
-      CAPTURE(with_prior, window.x_m, window.y_m, window.yaw_rad);
-      REQUIRE(found.size() == expected.size());
-      compared += found.size();
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        CAPTURE(i);
-        const Pose2 pose = every.pose(center, expected[i]);
-        REQUIRE(found[i].score == Approx(expected[i].score).epsilon(1e-12));
-        REQUIRE(found[i].objective == Approx(expected[i].objective).epsilon(1e-12).margin(1e-12));
-        REQUIRE(found[i].pose.x_m == Approx(pose.x_m).margin(1e-12));
-        REQUIRE(found[i].pose.y_m == Approx(pose.y_m).margin(1e-12));
-        REQUIRE(std::abs(angle_between_rad(found[i].pose.yaw_rad, pose.yaw_rad)) < 1e-12);
-      }
-    }
+    compared += compare(search, scan, surfaces, center, nullptr, window);
+    compared += compare(search, scan, surfaces, center, &covariance, window);
   }
   REQUIRE(compared > 300);
+}
+
+TEST_CASE("A search is seamless all around", "[estimation]") {
+  Random random(8);
+  const auto walls = asymmetric_room(room::kTurned);
+  const SurfaceMap<2> surfaces = mapped(walls, {room::kTurned});
+  CorrelativeSearchParams params;
+  params.objective_margin = 1.0;
+  for (int draw = 0; draw < 20; ++draw) {
+    CAPTURE(draw);
+    params.separation_rad = draw % 2 == 0 ? 1.0 : 0.0;
+    CorrelativeSearch<2> search(params);
+    // The truth is where the first turn meets the last.
+    const Pose2 truth = room::kTurned * Pose2{0.0, 0.0, random.uniform(-kPi, kPi)};
+    const Pose2 center{truth.x_m, truth.y_m, truth.yaw_rad + kPi + random.uniform(-0.02, 0.02)};
+    const Scan<2> scan = room::scan_of(walls, truth, 30);
+    REQUIRE(compare(search, scan, surfaces, center, nullptr, {0.05, 0.0, kPi}) > 2);
+    REQUIRE(std::abs(angle_between_rad(
+                search.find(scan, surfaces, center, {0.0, 0.0, kPi}).at(0).pose.yaw_rad, truth.yaw_rad)) <
+            0.02);
+  }
 }
 
 TEST_CASE("A displaced and turned robot is found in a room at any angle", "[estimation]") {
