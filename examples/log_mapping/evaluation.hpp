@@ -37,8 +37,8 @@ struct ReferenceError {
   Trajectory reference;     ///< aligned to the estimate, in the map's frame
 };
 
-/// Stamps match to 10 us, as relations do. Throws incognita::InputError, which names `file`, when fewer than two poses
-/// match.
+/// Stamps match to 10 us, as relations do. Throws incognita::InputError, which names `file`, when fewer than
+/// two poses match.
 [[nodiscard]] inline ReferenceError compare(const Trajectory& estimated, const Trajectory& reference,
                                             const std::filesystem::path& file) {
   using namespace incognita;
@@ -56,7 +56,8 @@ struct ReferenceError {
   for (Pose2& pose : theirs) pose = T_map_reference * pose;
   ReferenceError error;
   error.ate_rmse_m = trajectory_error(ours, theirs).translation_rmse_m();
-  for (const TimedPose2& timed : reference) error.reference.push_back({timed.time_s, T_map_reference * timed.pose});
+  for (const TimedPose2& timed : reference)
+    error.reference.push_back({timed.time_s, T_map_reference * timed.pose});
   return error;
 }
 

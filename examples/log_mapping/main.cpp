@@ -18,8 +18,9 @@ namespace log_mapping {
 namespace {
 
 void print_table(const nlohmann::ordered_json& metrics, const std::filesystem::path& folder) {
-  for (const char* key : {"scans", "duration_s", "distance_m", "relations_matched", "relations_translation_mean_m",
-                          "relations_rotation_mean_deg", "ate_rmse_m", "lost_scans", "wall_time_s", "real_time_factor"}) {
+  for (const char* key :
+       {"scans", "duration_s", "distance_m", "relations_matched", "relations_translation_mean_m",
+        "relations_rotation_mean_deg", "ate_rmse_m", "lost_scans", "wall_time_s", "real_time_factor"}) {
     const auto& value = metrics.at(key);
     if (value.is_null()) continue;
     std::printf("  %-28s %.6g\n", key, value.get<double>());
@@ -38,11 +39,13 @@ void run(const Options& options) {
   // All input is read before anything is written.
   const RobotLog log = read_robot_log(options.log_file, options.log);
   Trajectory reference;
-  if (!options.reference_file.empty()) reference = odometry_of(read_intel_json(options.reference_file, options.log));
+  if (!options.reference_file.empty())
+    reference = odometry_of(read_intel_json(options.reference_file, options.log));
   std::vector<PoseRelation> relations;
   if (!options.relations_file.empty()) relations = read_relations(options.relations_file);
-  examples::OutputFolder output(options.output, {"metrics.json", "trajectory_estimated.tum", "trajectory_odometry.tum",
-                                                 "trajectory_reference.tum", "map.yaml", "map.png", "overview.png"});
+  examples::OutputFolder output(options.output,
+                                {"metrics.json", "trajectory_estimated.tum", "trajectory_odometry.tum",
+                                 "trajectory_reference.tum", "map.yaml", "map.png", "overview.png"});
 
   MapParams map_params;
   map_params.resolution_m = options.resolution_m;
@@ -68,7 +71,8 @@ void run(const Options& options) {
   write_file_atomically(output.staged("metrics.json"), metrics.dump(2) + "\n");
   write_tum(output.staged("trajectory_estimated.tum"), record.estimated);
   write_tum(output.staged("trajectory_odometry.tum"), record.odometry);
-  if (evaluation.reference) write_tum(output.staged("trajectory_reference.tum"), evaluation.reference->reference);
+  if (evaluation.reference)
+    write_tum(output.staged("trajectory_reference.tum"), evaluation.reference->reference);
   examples::write_map(output.staged("map.yaml"), map, thresholds);
   draw_overview(output.staged("overview.png"), map, record, evaluation, thresholds);
   output.publish();
@@ -79,9 +83,14 @@ void run(const Options& options) {
 }  // namespace log_mapping
 
 int main(int argc, char** argv) {
-  CLI::App app("Maps the log of a robot with a planar laser by its raw odometry and its scans. Writes metrics.json, map.yaml\n"
-               "and map.png, overview.png and trajectory_estimated.tum, trajectory_odometry.tum and, with a reference,\n"
-               "trajectory_reference.tum (turned and shifted onto the estimate), all in the frame of the map, which is\n"
-               "the robot's first pose.");
-  return examples::run_program("log_mapping", app, [&] { log_mapping::run(log_mapping::parse_options(app, argc, argv)); });
+  CLI::App app(
+      "Maps the log of a robot with a planar laser by its raw odometry and its scans. Writes metrics.json, "
+      "map.yaml\n"
+      "and map.png, overview.png and trajectory_estimated.tum, trajectory_odometry.tum and, with a "
+      "reference,\n"
+      "trajectory_reference.tum (turned and shifted onto the estimate), all in the frame of the map, which "
+      "is\n"
+      "the robot's first pose.");
+  return examples::run_program("log_mapping", app,
+                               [&] { log_mapping::run(log_mapping::parse_options(app, argc, argv)); });
 }

@@ -20,9 +20,10 @@
 
 namespace log_mapping {
 
-/// The estimator for logs of real robots, whose scans often lie half a metre and some seconds apart. Odometry errs by
-/// 0.1 m and 0.1 rad from one to the next, so registration starts far off and takes more iterations; a real wall, with its
-/// door frames and furniture, is known to a few centimetres and bends within a decimetre.
+/// The estimator for logs of real robots, whose scans often lie half a metre and some seconds apart. Odometry
+/// errs by 0.1 m and 0.1 rad from one to the next, so registration starts far off and takes more iterations;
+/// a real wall, with its door frames and furniture, is known to a few centimetres and bends within a
+/// decimetre.
 [[nodiscard]] inline incognita::DvlEkf::Params log_filter_params() {
   incognita::DvlEkf::Params params;
   params.noise = {0.0632, 0.0632};
@@ -36,7 +37,8 @@ namespace log_mapping {
 /// Whether a correction rested on too little to be trusted.
 [[nodiscard]] inline bool is_lost(const incognita::CorrectionReport& report, const incognita::Scan<2>& scan) {
   std::size_t hits = 0;
-  for (std::size_t beam = 0; beam < scan.size(); ++beam) hits += scan.reading(beam) == incognita::Reading::hit;
+  for (std::size_t beam = 0; beam < scan.size(); ++beam)
+    hits += scan.reading(beam) == incognita::Reading::hit;
   return 5 * report.associations < hits;
 }
 
@@ -49,12 +51,14 @@ struct MappingRecord {
   double wall_time_s = 0.0;  ///< of estimation and mapping, without files
 };
 
-/// The motion since the last scan, by odometry and then by where the scan fits what the filter has learnt best within
-/// 0.3 m and 0.21 rad of it: three sigmas and more of what wheels do in half a metre, and farther than registration reaches.
-/// While the robot stands at its start, and where nothing fits, odometry stays.
+/// The motion since the last scan, by odometry and then by where the scan fits what the filter has learnt
+/// best within 0.3 m and 0.21 rad of it: three sigmas and more of what wheels do in half a metre, and farther
+/// than registration reaches. While the robot stands at its start, and where nothing fits, odometry stays.
 [[nodiscard]] inline incognita::Pose2 searched_increment(incognita::CorrelativeSearch<2>& search,
-                                                         const incognita::DvlEkf& filter, const incognita::Scan<2>& scan,
-                                                         const incognita::Pose2& increment, double duration_s) {
+                                                         const incognita::DvlEkf& filter,
+                                                         const incognita::Scan<2>& scan,
+                                                         const incognita::Pose2& increment,
+                                                         double duration_s) {
   const incognita::DvlEkf::Params& params = filter.params();
   const bool moves = incognita::norm(increment.position()) > params.start_hold_distance_m ||
                      std::abs(increment.yaw_rad) > params.start_hold_turn_rad;
@@ -64,12 +68,12 @@ struct MappingRecord {
   return candidates.empty() ? increment : filter.belief().pose.inverse() * candidates.front().pose;
 }
 
-/// Maps a log by odometry and scans alone. `filter` starts at the first scan, with its belief at the laser's pose in the
-/// map's frame; `file` is named in errors. Throws incognita::InputError when odometry leads so far away that the map
-/// would not fit into memory.
+/// Maps a log by odometry and scans alone. `filter` starts at the first scan, with its belief at the laser's
+/// pose in the map's frame; `file` is named in errors. Throws incognita::InputError when odometry leads so
+/// far away that the map would not fit into memory.
 template <class Map>
-[[nodiscard]] MappingRecord map_log(const incognita::RobotLog& log, const std::filesystem::path& file, Map& map,
-                                    incognita::DvlEkf& filter) {
+[[nodiscard]] MappingRecord map_log(const incognita::RobotLog& log, const std::filesystem::path& file,
+                                    Map& map, incognita::DvlEkf& filter) {
   using namespace incognita;
   constexpr double cells_max = 1 << 26;
   const Pose2 T_laser_robot = log.T_robot_laser.inverse();

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <numbers>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "incognita/io/robot_log.hpp"
 #include "log_mapping/evaluation.hpp"
@@ -18,11 +17,14 @@
 namespace log_mapping {
 
 /// What is not known is null.
-[[nodiscard]] inline nlohmann::ordered_json metrics_json(const Options& options, const incognita::RobotLog& log,
-                                                         const MappingRecord& record, const Evaluation& evaluation) {
+[[nodiscard]] inline nlohmann::ordered_json metrics_json(const Options& options,
+                                                         const incognita::RobotLog& log,
+                                                         const MappingRecord& record,
+                                                         const Evaluation& evaluation) {
   nlohmann::ordered_json json;
   const auto file_name = [](const std::string& file) {
-    return file.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(std::filesystem::path(file).filename().string());
+    return file.empty() ? nlohmann::ordered_json()
+                        : nlohmann::ordered_json(std::filesystem::path(file).filename().string());
   };
   json["log"] = file_name(options.log_file);
   json["reference"] = file_name(options.reference_file);
@@ -31,7 +33,8 @@ namespace log_mapping {
   json["beams"] = log.beams.directions.size();
   json["duration_s"] = log.duration_s();
   json["distance_m"] = record.distance_m;
-  const auto add_relations = [&](const std::string& prefix, const std::optional<incognita::RelationsError>& error) {
+  const auto add_relations = [&](const std::string& prefix,
+                                 const std::optional<incognita::RelationsError>& error) {
     for (const char* key : {"translation_mean_m", "rotation_mean_deg"}) json[prefix + key] = nullptr;
     if (!error || error->matched == 0) return;
     json[prefix + "translation_mean_m"] = error->translation_mean_m;

@@ -1,6 +1,7 @@
 /// Checks of command line arguments that CLI11 does not have.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -8,17 +9,17 @@
 #include <string>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
-
 #include "incognita/io/number.hpp"
 
 namespace examples {
 
 /// A CLI11 check: an empty text is most likely a variable that is not set.
-[[nodiscard]] inline std::string refuse_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
+[[nodiscard]] inline std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "is empty" : "";
+}
 
-/// The numbers of a text that separates them by commas. `form` says what they are, as "X,Y with finite numbers in metres".
-/// Throws CLI::ValidationError unless there are Count of them and all are finite.
+/// The numbers of a text that separates them by commas. `form` says what they are, as "X,Y with finite
+/// numbers in metres". Throws CLI::ValidationError unless there are Count of them and all are finite.
 template <std::size_t Count>
 [[nodiscard]] std::array<double, Count> parse_numbers(const std::string& option, const std::string& text,
                                                       const std::string& form) {

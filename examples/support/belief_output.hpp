@@ -39,11 +39,13 @@ template <class Map>
 
 /// The map as map_server takes it: free, occupied and unknown by the thresholds, cut to what was touched.
 template <class Map>
-void write_map(const std::filesystem::path& yaml_file, const Map& map, const incognita::OccupancyThresholds& thresholds) {
+void write_map(const std::filesystem::path& yaml_file, const Map& map,
+               const incognita::OccupancyThresholds& thresholds) {
   incognita::ProbabilityGrid grid(map.lattice(), touched_cells(map), incognita::unknown_probability);
   for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(grid.size()); ++cell) {
     const incognita::Occupancy occupancy = thresholds.classify(map.log_odds(grid.index_at(cell)));
-    if (occupancy != incognita::Occupancy::unknown) grid[cell] = occupancy == incognita::Occupancy::occupied ? 1.0F : 0.0F;
+    if (occupancy != incognita::Occupancy::unknown)
+      grid[cell] = occupancy == incognita::Occupancy::occupied ? 1.0F : 0.0F;
   }
   write_map_server(yaml_file, grid);
 }

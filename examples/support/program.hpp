@@ -1,21 +1,20 @@
 /// How an example ends: its exit code and what it says when it fails.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "incognita/io/input_error.hpp"
 #include "support/output_folder.hpp"
 
 namespace examples {
 
-/// Calls run(), which parses the command line by `app` and does the work. Returns 0, 2 after one line on stderr for bad
-/// arguments, bad files and places that cannot be written, 1 after one for anything else.
+/// Calls run(), which parses the command line by `app` and does the work. Returns 0, 2 after one line on
+/// stderr for bad arguments, bad files and places that cannot be written, 1 after one for anything else.
 template <class Run>
 [[nodiscard]] int run_program(const std::string& name, const CLI::App& app, Run&& run) {
   const auto refuse = [&](const std::exception& error) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "incognita/io/carmen_log.hpp"
@@ -29,13 +30,15 @@ std::string parse_refusal(const std::string& text) {
 const std::string good_line = "FLASER 3 1.5 2 2.5 0.3 0.2 0.1 1 2 0.5 976.25 pippo 0.3\n";
 /// Of 3 readings over 90 degrees, remissions, a laser 0.1 m ahead of the robot.
 const std::string robot_laser_line =
-    "ROBOTLASER1 0 -0.785 1.57 0.785 81.9 0.01 0 3 1.5 2 2.5 2 7 8 1.1 2 0 1 2 0 0.2 0.1 0 0 0 976.25 pippo 0.3\n";
+    "ROBOTLASER1 0 -0.785 1.57 0.785 81.9 0.01 0 3 1.5 2 2.5 2 7 8 1.1 2 0 1 2 0 0.2 0.1 0 0 0 976.25 pippo "
+    "0.3\n";
 
 }  // namespace
 
 TEST_CASE("CARMEN: FLASER lines are read, others skipped") {
-  const RobotLog log = parse("# message formats\nPARAM robot_length 1\nODOM 9 9 9 0 0 0 1 pippo 0\n\n" + good_line +
-                             "RLASER 1 2\n  FLASER 3 1 nan inf 0.3 0.2 0.1 1 2 4 970 pippo 0.2 \r\n");
+  const RobotLog log =
+      parse("# message formats\nPARAM robot_length 1\nODOM 9 9 9 0 0 0 1 pippo 0\n\n" + good_line +
+            "RLASER 1 2\n  FLASER 3 1 nan inf 0.3 0.2 0.1 1 2 4 970 pippo 0.2 \r\n");
   REQUIRE(log.scans.size() == 2);
   CHECK(log.scans[0].time_s == 970.0);
   CHECK(log.scans[1].time_s == 976.25);
@@ -129,7 +132,8 @@ TEST_CASE("CARMEN: files cut off or spoilt are read or refused") {
   for (const std::string& line : {good_line, robot_laser_line}) {
     const std::string good = line + line + line;
     std::size_t refused = 0;
-    for (std::size_t size = 0; size < good.size(); ++size) refused += !parse_refusal(good.substr(0, size)).empty();
+    for (std::size_t size = 0; size < good.size(); ++size)
+      refused += !parse_refusal(good.substr(0, size)).empty();
     CHECK(refused > good.size() / 3);
     CHECK(io_test::refused_when_spoilt(good, 5000, parse) > 1000);
   }

@@ -1,8 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cstddef>
 #include <filesystem>
-#include <limits>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "incognita/io/intel_json.hpp"
 #include "support.hpp"
@@ -63,17 +64,20 @@ TEST_CASE("Intel JSON: a bad file is refused with the scan and the cause") {
   CHECK_THAT(parse_refusal(with_scan(R"("range": [1, 2, 3], "x": 1, "y": 1)")),
              Contains("the scan \"1.5\" lacks \"theta\""));
   CHECK_THAT(parse_refusal(with_scan(R"("x": 1, "y": 1, "theta": 0)")), Contains("lacks \"range\""));
-  CHECK_THAT(parse_refusal(with_scan(R"("range": [], "x": 1, "y": 1, "theta": 0)")), Contains("lacks \"range\""));
+  CHECK_THAT(parse_refusal(with_scan(R"("range": [], "x": 1, "y": 1, "theta": 0)")),
+             Contains("lacks \"range\""));
   CHECK_THAT(parse_refusal(with_scan(R"("range": 3)")) + parse_refusal(with_scan(R"("range": "a")")),
              Contains("\"range\" \"a\", which must be an array of numbers"));
-  CHECK_THAT(parse_refusal(with_scan(R"("range": [1, "a"])")), Contains("a reading \"a\", but it must be a number"));
+  CHECK_THAT(parse_refusal(with_scan(R"("range": [1, "a"])")),
+             Contains("a reading \"a\", but it must be a number"));
   CHECK_THAT(parse_refusal(with_scan(R"("range": [1, [2]])")), Contains("an array among the readings"));
   CHECK_THAT(parse_refusal(with_scan(R"("range": [1], "range": [2])")), Contains("two fields \"range\""));
   CHECK_THAT(parse_refusal(with_scan(R"("x": {"y": 1})")), Contains("an object too many"));
   CHECK_THAT(parse_refusal(with_scan(R"("x": true)")), Contains("\"x\" true, which must be a number"));
   CHECK_THAT(parse_refusal(with_scan(R"("x": 1e7)")), Contains("\"x\" is 1e+07, but must be within 1e+06"));
   CHECK_THAT(parse_refusal(with_scan(R"("x": 1e999)")), Contains("a number is out of range"));
-  CHECK_THAT(parse_refusal(R"({"map": {"1": {)" + good_fields + R"(}, "2": {"range": [1], "x": 1, "y": 1, "theta": 0}}})"),
+  CHECK_THAT(parse_refusal(R"({"map": {"1": {)" + good_fields +
+                           R"(}, "2": {"range": [1], "x": 1, "y": 1, "theta": 0}}})"),
              Contains("the scan \"2\" has 1 readings, but must have 3"));
   CHECK_THAT(parse_refusal(with_scan(good_fields) + "x"), Contains("not valid JSON"));
   CHECK_THAT(parse_refusal(R"({"map": {"1)" + std::string("\n") + R"(": {}}})"), Contains("not valid JSON"));
@@ -98,7 +102,8 @@ TEST_CASE("Intel JSON: files cut off or spoilt are read or refused") {
 }
 
 TEST_CASE("Intel JSON: the Intel Research Lab") {
-  const std::filesystem::path file = std::filesystem::path(INCOGNITA_DATA_DIR) / "intel" / "raw_odometry.json";
+  const std::filesystem::path file =
+      std::filesystem::path(INCOGNITA_DATA_DIR) / "intel" / "raw_odometry.json";
   if (!std::filesystem::exists(file)) {
     WARN("skipped: " << file << " is not there");
     return;

@@ -32,7 +32,8 @@ TEST_CASE("relations: lines, comments and Windows line ends") {
 }
 
 TEST_CASE("relations: a bad line is refused with its number") {
-  for (const std::string bad : {"1 2 3 4 5", "1 2 3 4 5 6 7 8 9", "1 2 3 x 5 6 7 8", "1 2 3 4 5 6 7 nan", "inf 2 3 4 5 6 7 8"}) {
+  for (const std::string bad :
+       {"1 2 3 4 5", "1 2 3 4 5 6 7 8 9", "1 2 3 x 5 6 7 8", "1 2 3 4 5 6 7 nan", "inf 2 3 4 5 6 7 8"}) {
     CAPTURE(bad);
     CHECK_THAT(parse_refusal("# first\n1 2 0 0 0 0 0 0\n" + bad),
                Contains("a.txt: line 3 is \"" + bad + "\"") && Contains("eight finite numbers"));
@@ -40,7 +41,8 @@ TEST_CASE("relations: a bad line is refused with its number") {
   CHECK_THAT(parse_refusal(""), Contains("a.txt: holds no relations"));
   CHECK_THAT(refusal([] { return read_relations("missing.txt"); }), Contains("no such file"));
   const std::string good = "1.5 2.5 3 -4 9 8 7 0.5\n2 1 0 0 0 0 0 4\n";
-  CHECK(io_test::refused_when_spoilt(good, 3000, [](const std::string& text) { return parse_relations(text, "x"); }) > 500);
+  CHECK(io_test::refused_when_spoilt(
+            good, 3000, [](const std::string& text) { return parse_relations(text, "x"); }) > 500);
 }
 
 TEST_CASE("relations: those of the Intel Research Lab") {

@@ -1,8 +1,14 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "incognita/core/random.hpp"
@@ -80,7 +86,8 @@ TEST_CASE("range limits: a log without codes has none") {
 
 TEST_CASE("range limits: what is no reading counts for nothing") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const RangeLimits limits = detect_range_limits(one_scan({1.0, nan, infinite_m, -infinite_m, -3.0, 0.0, 2.0}));
+  const RangeLimits limits =
+      detect_range_limits(one_scan({1.0, nan, infinite_m, -infinite_m, -3.0, 0.0, 2.0}));
   CHECK(limits.no_return_m == infinite_m);
   CHECK(limits.usable_m == Approx(2.0));
   CHECK(detect_range_limits(one_scan({nan, 0.0, infinite_m})).usable_m == 0.0);
@@ -113,16 +120,18 @@ TEST_CASE("robot log: readings become what a scan takes") {
 }
 
 TEST_CASE("robot log: without limits the longest reading stays a hit") {
-  const RobotLog log = detail::finish_log(one_scan(std::vector<double>{1.0, 9.0}), {BeamAngles{0.0, 0.1}, {}, {}, {}},
-                                          std::nullopt, {}, "a.log");
+  const RobotLog log = detail::finish_log(one_scan(std::vector<double>{1.0, 9.0}),
+                                          {BeamAngles{0.0, 0.1}, {}, {}, {}}, std::nullopt, {}, "a.log");
   const Scan<2> scan(log.beams, log.scans[0].ranges_m);
   CHECK(scan.reading(0) == Reading::hit);
   CHECK(scan.reading(1) == Reading::hit);
 }
 
 TEST_CASE("robot log: scans come in the order of time") {
-  std::vector<LogScan> scans{{3.0, {3, 0, 0}, {1.0}}, {1.0, {1, 0, 0}, {1.0}}, {2.0, {2, 0, 0}, {1.0}}, {1.0, {4, 0, 0}, {1.0}}};
-  const RobotLog log = detail::finish_log(scans, {BeamAngles{0.0, 0.1}, {}, {}, {}}, std::nullopt, {}, "a.log");
+  std::vector<LogScan> scans{
+      {3.0, {3, 0, 0}, {1.0}}, {1.0, {1, 0, 0}, {1.0}}, {2.0, {2, 0, 0}, {1.0}}, {1.0, {4, 0, 0}, {1.0}}};
+  const RobotLog log =
+      detail::finish_log(scans, {BeamAngles{0.0, 0.1}, {}, {}, {}}, std::nullopt, {}, "a.log");
   std::vector<double> x_m;
   for (const LogScan& scan : log.scans) x_m.push_back(scan.T_odom_robot.x_m);
   CHECK(x_m == std::vector<double>{1.0, 4.0, 2.0, 3.0});

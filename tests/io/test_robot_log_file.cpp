@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <string>
+#include <utility>
 
 #include "incognita/io/robot_log_file.hpp"
 #include "support.hpp"
@@ -13,7 +14,8 @@ TEST_CASE("robot log file: the name decides what is read") {
   const std::string carmen = "FLASER 2 1 2 0 0 0 1 2 0 5";
   RobotLogParams params;
   params.beams = BeamAngles{0.0, 0.1};
-  for (const auto& [name, content] : {std::pair{"a.json", json}, {"a.log", carmen}, {"a.clf", carmen}, {"a.carmen", carmen}}) {
+  for (const auto& [name, content] :
+       {std::pair{"a.json", json}, {"a.log", carmen}, {"a.clf", carmen}, {"a.carmen", carmen}}) {
     const RobotLog log = read_robot_log(folder.with(name, content), params);
     CHECK(log.scans.at(0).T_odom_robot.y_m == 2.0);
     CHECK(log.scans.at(0).time_s == 5.0);

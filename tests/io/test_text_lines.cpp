@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,7 +13,8 @@ namespace {
 
 std::vector<std::pair<std::size_t, std::string>> lines_of(std::string_view text) {
   std::vector<std::pair<std::size_t, std::string>> lines;
-  detail::for_each_line(text, [&](std::size_t number, std::string_view line) { lines.emplace_back(number, line); });
+  detail::for_each_line(text,
+                        [&](std::size_t number, std::string_view line) { lines.emplace_back(number, line); });
   return lines;
 }
 

@@ -34,7 +34,8 @@ Drive random_drive(Random& random) {
   for (int i = 0; i < 50; ++i) {
     const std::size_t from = random.index(30);
     const std::size_t to = random.index(30);
-    drive.relations.push_back({drive.times_s[from], drive.times_s[to], drive.poses[from].inverse() * drive.poses[to]});
+    drive.relations.push_back(
+        {drive.times_s[from], drive.times_s[to], drive.poses[from].inverse() * drive.poses[to]});
   }
   return drive;
 }
@@ -98,7 +99,8 @@ TEST_CASE("relations error: only relations whose stamps are there count") {
 TEST_CASE("relations error: what does not fit is refused") {
   const std::vector<double> falling_s{1.0, 0.0};
   const std::vector<Pose2> poses(2);
-  CHECK_THROWS_WITH(relations_error(std::vector<double>{0.0}, poses, {}), "relations_error: 1 times for 2 poses");
+  CHECK_THROWS_WITH(relations_error(std::vector<double>{0.0}, poses, {}),
+                    "relations_error: 1 times for 2 poses");
   CHECK_THROWS_AS(relations_error(falling_s, poses, {}), std::invalid_argument);
   CHECK_THROWS_AS(relations_error(std::vector<double>{0.0, 1.0}, poses, {}, -1.0), std::invalid_argument);
 }

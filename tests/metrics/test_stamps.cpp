@@ -22,7 +22,8 @@ TEST_CASE("stamps: the nearest, as by looking at all") {
     std::optional<std::size_t> expected;
     for (std::size_t i = 0; i < times_s.size(); ++i) {
       const double apart_s = std::abs(times_s[i] - time_s);
-      if (apart_s <= tolerance_s && (!expected || apart_s < std::abs(times_s[*expected] - time_s))) expected = i;
+      if (apart_s <= tolerance_s && (!expected || apart_s < std::abs(times_s[*expected] - time_s)))
+        expected = i;
     }
     CAPTURE(times_s, time_s, tolerance_s);
     CHECK(find_stamp(times_s, time_s, tolerance_s) == expected);
@@ -31,5 +32,6 @@ TEST_CASE("stamps: the nearest, as by looking at all") {
 
 TEST_CASE("stamps: times that fall are refused") {
   CHECK_NOTHROW(require_ascending("x", std::vector<double>{1.0, 1.0, 2.0}));
-  CHECK_THROWS_WITH(require_ascending("x", std::vector<double>{2.0, 1.0}), "x: times_s is not in ascending order");
+  CHECK_THROWS_WITH(require_ascending("x", std::vector<double>{2.0, 1.0}),
+                    "x: times_s is not in ascending order");
 }

@@ -1,4 +1,5 @@
-/// Logs of CARMEN, the robot navigation toolkit, in which most of the public laser data of the 2000s came out.
+/// Logs of CARMEN, the robot navigation toolkit, in which most of the public laser data of the 2000s came
+/// out.
 #pragma once
 
 #include <algorithm>
@@ -49,8 +50,9 @@ class CarmenLine {
     return read;
   }
 
-  /// ROBOTLASER1 type start_angle field_of_view angular_resolution maximum_range accuracy remission_mode n r1..rn
-  /// m v1..vm x y theta odom_x odom_y odom_theta tv rv forward_safety side_safety turn_axis timestamp ...
+  /// ROBOTLASER1 type start_angle field_of_view angular_resolution maximum_range accuracy remission_mode n
+  /// r1..rn m v1..vm x y theta odom_x odom_y odom_theta tv rv forward_safety side_safety turn_axis timestamp
+  /// ...
   [[nodiscard]] CarmenScan robot_laser() {
     CarmenScan read;
     static_cast<void>(value("the laser's type", 1e15));
@@ -87,13 +89,15 @@ class CarmenLine {
     const std::string_view text = word(what);
     const std::optional<double> number = parse_number(text);
     if (number && std::abs(*number) <= magnitude_max) return *number;
-    fail(std::string(what) + " is " + shown(text) + ", but must be a number within " + format_number(magnitude_max));
+    fail(std::string(what) + " is " + shown(text) + ", but must be a number within " +
+         format_number(magnitude_max));
   }
 
   [[nodiscard]] std::size_t count(const char* what) {
     const std::string_view text = word(what);
     const std::optional<double> number = parse_number(text);
-    if (number && *number >= 0.0 && *number <= static_cast<double>(log_beams_max) && *number == std::floor(*number)) {
+    if (number && *number >= 0.0 && *number <= static_cast<double>(log_beams_max) &&
+        *number == std::floor(*number)) {
       return static_cast<std::size_t>(*number);
     }
     fail(std::string(what) + " is " + shown(text) + ", but must be a whole number up to " +
@@ -125,10 +129,12 @@ class CarmenLine {
   std::string_view message_;
 };
 
-/// Where the laser sits on the robot, if its poses tell: all lines must agree, and within 2 m. In logs whose laser's poses
-/// were corrected afterwards they do not agree, and then nothing is known.
+/// Where the laser sits on the robot, if its poses tell: all lines must agree, and within 2 m. In logs whose
+/// laser's poses were corrected afterwards they do not agree, and then nothing is known.
 [[nodiscard]] inline Pose2 laser_mounting(const std::vector<CarmenScan>& scans) {
-  const auto mounting = [](const CarmenScan& read) { return read.scan.T_odom_robot.inverse() * read.T_world_laser; };
+  const auto mounting = [](const CarmenScan& read) {
+    return read.scan.T_odom_robot.inverse() * read.T_world_laser;
+  };
   const Pose2 first = mounting(scans.front());
   const bool agree = std::all_of(scans.begin(), scans.end(), [&](const CarmenScan& read) {
     const Pose2 other = mounting(read);
@@ -141,10 +147,10 @@ class CarmenLine {
 
 }  // namespace detail
 
-/// The log that the text of a CARMEN log file holds: the FLASER messages or, when the first scan is one, the ROBOTLASER1
-/// messages; all others (ODOM, PARAM, rear lasers, ...) are skipped, as are comments. Odometry is the one in the message.
-/// The angles of FLASER are not in the file: see default_beam_angles. `file` is only named in errors. Throws InputError,
-/// which names the line, and std::invalid_argument for bad parameters.
+/// The log that the text of a CARMEN log file holds: the FLASER messages or, when the first scan is one, the
+/// ROBOTLASER1 messages; all others (ODOM, PARAM, rear lasers, ...) are skipped, as are comments. Odometry is
+/// the one in the message. The angles of FLASER are not in the file: see default_beam_angles. `file` is only
+/// named in errors. Throws InputError, which names the line, and std::invalid_argument for bad parameters.
 [[nodiscard]] inline RobotLog parse_carmen_log(std::string_view text, const std::filesystem::path& file,
                                                const RobotLogParams& params = {}) {
   params.validate();
@@ -164,7 +170,8 @@ class CarmenLine {
                 std::to_string(read.front().scan.ranges_m.size()) + " as the first scan");
     }
     readings += beams;
-    if (readings > log_readings_max) line.fail("makes more than " + std::to_string(log_readings_max) + " readings");
+    if (readings > log_readings_max)
+      line.fail("makes more than " + std::to_string(log_readings_max) + " readings");
   });
   if (read.empty()) throw InputError(file, "holds no FLASER or ROBOTLASER1 message");
 
@@ -177,7 +184,8 @@ class CarmenLine {
 }
 
 /// Reads a CARMEN log of at most 512 MiB; see parse_carmen_log.
-[[nodiscard]] inline RobotLog read_carmen_log(const std::filesystem::path& file, const RobotLogParams& params = {}) {
+[[nodiscard]] inline RobotLog read_carmen_log(const std::filesystem::path& file,
+                                              const RobotLogParams& params = {}) {
   return parse_carmen_log(read_file(file, std::size_t{1} << 29), file, params);
 }
 

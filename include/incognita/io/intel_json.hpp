@@ -23,13 +23,15 @@ namespace incognita {
 
 namespace detail {
 
-/// Takes {"map": {"<time>": {"range": [...], "x": , "y": , "theta": }}} event by event, so that nothing but the scans is
-/// ever held, however deep or large the text is. Other fields of a scan may be there and hold anything but objects.
+/// Takes {"map": {"<time>": {"range": [...], "x": , "y": , "theta": }}} event by event, so that nothing but
+/// the scans is ever held, however deep or large the text is. Other fields of a scan may be there and hold
+/// anything but objects.
 class IntelJsonHandler {
  public:
   using Json = nlohmann::json;
 
-  IntelJsonHandler(const std::filesystem::path& file, std::vector<LogScan>& scans) : file_(file), scans_(scans) {}
+  IntelJsonHandler(const std::filesystem::path& file, std::vector<LogScan>& scans)
+      : file_(file), scans_(scans) {}
 
   /// A reading that is not finite: JSON has no other word for it.
   bool null() { return in_ranges_ ? reading(std::numeric_limits<double>::quiet_NaN()) : other("null"); }
@@ -114,12 +116,13 @@ class IntelJsonHandler {
     if (scan_.ranges_m.empty()) fail("lacks \"range\"");
     const std::size_t expected = scans_.empty() ? scan_.ranges_m.size() : scans_.front().ranges_m.size();
     if (scan_.ranges_m.size() != expected) {
-      fail("has " + std::to_string(scan_.ranges_m.size()) + " readings, but must have " + std::to_string(expected) +
-           " as the first one");
+      fail("has " + std::to_string(scan_.ranges_m.size()) + " readings, but must have " +
+           std::to_string(expected) + " as the first one");
     }
     scan_.T_odom_robot = {*pose_[0], *pose_[1], wrap_angle_rad(*pose_[2])};
     readings_ += expected;
-    if (readings_ > log_readings_max) fail("makes more than " + std::to_string(log_readings_max) + " readings");
+    if (readings_ > log_readings_max)
+      fail("makes more than " + std::to_string(log_readings_max) + " readings");
     scans_.push_back(std::move(scan_));
   }
 
@@ -151,7 +154,8 @@ class IntelJsonHandler {
     const bool is_pose = key_ == pose_fields[0] || key_ == pose_fields[1] || key_ == pose_fields[2];
     if (in_ranges_) fail("has a reading " + value + ", but it must be a number");
     if (depth_ == 3 && ignored_arrays_ == 0 && (is_pose || key_ == "range")) {
-      fail("has \"" + key_ + "\" " + value + ", which must be " + (is_pose ? "a number" : "an array of numbers"));
+      fail("has \"" + key_ + "\" " + value + ", which must be " +
+           (is_pose ? "a number" : "an array of numbers"));
     }
     if (depth_ < 3 && (depth_ != 1 || key_ == "map")) fail("has " + value + " where an object must be");
     return true;
@@ -163,7 +167,7 @@ class IntelJsonHandler {
   std::array<std::optional<double>, 3> pose_{};
   std::string key_;
   std::string time_;
-  int depth_ = 0;            // of objects; 3 within a scan
+  int depth_ = 0;           // of objects; 3 within a scan
   int ignored_arrays_ = 0;  // open arrays of fields that are not read
   bool in_ranges_ = false;
   std::size_t readings_ = 0;
@@ -171,10 +175,10 @@ class IntelJsonHandler {
 
 }  // namespace detail
 
-/// The log that the text of a JSON file holds: {"map": {"<unix time>": {"range": [...], "x": , "y": , "theta": }}}, in
-/// metres and radians, all scans with as many readings; the pose is odometry or, in a corrected file, the correction.
-/// `file` is only named in errors. Throws InputError, and std::invalid_argument for bad parameters. Memory is that of the
-/// scans, whatever else is in the text.
+/// The log that the text of a JSON file holds: {"map": {"<unix time>": {"range": [...], "x": , "y": ,
+/// "theta": }}}, in metres and radians, all scans with as many readings; the pose is odometry or, in a
+/// corrected file, the correction. `file` is only named in errors. Throws InputError, and
+/// std::invalid_argument for bad parameters. Memory is that of the scans, whatever else is in the text.
 [[nodiscard]] inline RobotLog parse_intel_json(std::string_view text, const std::filesystem::path& file,
                                                const RobotLogParams& params = {}) {
   params.validate();
@@ -185,7 +189,8 @@ class IntelJsonHandler {
 }
 
 /// Reads a JSON log of at most 256 MiB; see parse_intel_json.
-[[nodiscard]] inline RobotLog read_intel_json(const std::filesystem::path& file, const RobotLogParams& params = {}) {
+[[nodiscard]] inline RobotLog read_intel_json(const std::filesystem::path& file,
+                                              const RobotLogParams& params = {}) {
   return parse_intel_json(read_file(file, std::size_t{1} << 28), file, params);
 }
 

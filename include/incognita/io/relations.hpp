@@ -19,9 +19,10 @@
 
 namespace incognita {
 
-/// The relations in a text: a line each, "t1 t2 x y z roll pitch yaw" in seconds, metres and radians, the pose at t2 in the
-/// frame of the pose at t1. Empty lines and comments (#) are skipped; height, roll and pitch are dropped. `file` is only
-/// named in errors. Throws InputError, which names the line, unless each holds eight finite numbers and there is one.
+/// The relations in a text: a line each, "t1 t2 x y z roll pitch yaw" in seconds, metres and radians, the
+/// pose at t2 in the frame of the pose at t1. Empty lines and comments (#) are skipped; height, roll and
+/// pitch are dropped. `file` is only named in errors. Throws InputError, which names the line, unless each
+/// holds eight finite numbers and there is one.
 [[nodiscard]] inline std::vector<PoseRelation> parse_relations(std::string_view text,
                                                                const std::filesystem::path& file) {
   std::vector<PoseRelation> relations;

@@ -43,21 +43,22 @@ struct RangeLimits {
 
 /// How a log is read; what is not given is detected.
 struct RobotLogParams {
-  std::optional<BeamAngles> beams;        ///< see default_beam_angles
-  std::optional<Pose2> T_robot_laser;     ///< without it as the log says, and the identity where it does not
-  std::optional<double> no_return_m;      ///< see detect_range_limits; > 0
-  std::optional<double> usable_m;         ///< see detect_range_limits; > 0
-  /// What no return means. false: nothing, so it is invalid. The code of a laser stands for an open space, and also for
-  /// glass, a mirror, a black wall, the sun or an error of its receiver, which are no free space. true: free up to
-  /// usable_m, for a laser that is known to miss nothing within it.
+  std::optional<BeamAngles> beams;     ///< see default_beam_angles
+  std::optional<Pose2> T_robot_laser;  ///< without it as the log says, and the identity where it does not
+  std::optional<double> no_return_m;   ///< see detect_range_limits; > 0
+  std::optional<double> usable_m;      ///< see detect_range_limits; > 0
+  /// What no return means. false: nothing, so it is invalid. The code of a laser stands for an open space,
+  /// and also for glass, a mirror, a black wall, the sun or an error of its receiver, which are no free
+  /// space. true: free up to usable_m, for a laser that is known to miss nothing within it.
   bool no_return_is_clear = false;
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
     if (beams) {
-      require(std::isfinite(beams->first_rad), "RobotLogParams", "beams.first_rad", beams->first_rad, "finite");
-      require(std::isfinite(beams->increment_rad), "RobotLogParams", "beams.increment_rad", beams->increment_rad,
+      require(std::isfinite(beams->first_rad), "RobotLogParams", "beams.first_rad", beams->first_rad,
               "finite");
+      require(std::isfinite(beams->increment_rad), "RobotLogParams", "beams.increment_rad",
+              beams->increment_rad, "finite");
     }
     if (T_robot_laser && !T_robot_laser->is_finite()) {
       throw std::invalid_argument("RobotLogParams: T_robot_laser is not finite");
@@ -67,7 +68,8 @@ struct RobotLogParams {
   }
 };
 
-/// A log, ready to be mapped: Scan<2>(beams, scans[i].ranges_m). It holds at least one scan, in the order of time.
+/// A log, ready to be mapped: Scan<2>(beams, scans[i].ranges_m). It holds at least one scan, in the order of
+/// time.
 struct RobotLog {
   BeamPattern<2> beams;  ///< in the laser's frame
   Pose2 T_robot_laser;
@@ -84,8 +86,9 @@ inline constexpr std::size_t log_readings_max = std::size_t{1} << 26;
 /// No robot is farther from the origin of its odometry.
 inline constexpr double log_position_max_m = 1e6;
 
-/// How the readings of a SICK LMS, which most of the public logs come from, are laid out: over 180 degrees, to the
-/// right first. 181 and 361 readings have both ends, 180 and 360 all but the last. Nothing for other numbers.
+/// How the readings of a SICK LMS, which most of the public logs come from, are laid out: over 180 degrees,
+/// to the right first. 181 and 361 readings have both ends, 180 and 360 all but the last. Nothing for other
+/// numbers.
 [[nodiscard]] inline std::optional<BeamAngles> default_beam_angles(std::size_t count) {
   constexpr double degree_rad = std::numbers::pi / 180.0;
   if (count == 180 || count == 181) return BeamAngles{-90.0 * degree_rad, degree_rad};
@@ -93,12 +96,13 @@ inline constexpr double log_position_max_m = 1e6;
   return std::nullopt;
 }
 
-/// The limits that the readings themselves tell. Lasers mark a missing return by a code at the top of their scale (a SICK
-/// LMS by 8183 to 8191, in centimetres or in millimetres), or clip it to their range. Either shows as a pile: readings
-/// within 0.2 % of the largest are codes when there are at least 10 of them and they are ten times as dense as those down
-/// to nine tenths of it. Where a far wall passes for a code, only what lies within 0.2 % of it is lost. All other
-/// readings are usable: usable_m lies just above the largest of them. Where no others are there are no codes. Values that
-/// are not finite or not positive are ignored; without any other, usable_m is 0.
+/// The limits that the readings themselves tell. Lasers mark a missing return by a code at the top of their
+/// scale (a SICK LMS by 8183 to 8191, in centimetres or in millimetres), or clip it to their range. Either
+/// shows as a pile: readings within 0.2 % of the largest are codes when there are at least 10 of them and
+/// they are ten times as dense as those down to nine tenths of it. Where a far wall passes for a code, only
+/// what lies within 0.2 % of it is lost. All other readings are usable: usable_m lies just above the largest
+/// of them. Where no others are there are no codes. Values that are not finite or not positive are ignored;
+/// without any other, usable_m is 0.
 [[nodiscard]] inline RangeLimits detect_range_limits(const std::vector<LogScan>& scans) {
   constexpr double infinite_m = std::numeric_limits<double>::infinity();
   const auto largest_below = [&](double bound_m) {
@@ -110,7 +114,9 @@ inline constexpr double log_position_max_m = 1e6;
     }
     return largest_m;
   };
-  const auto usable = [&](double largest_m) { return largest_m > 0.0 ? std::nextafter(largest_m, infinite_m) : 0.0; };
+  const auto usable = [&](double largest_m) {
+    return largest_m > 0.0 ? std::nextafter(largest_m, infinite_m) : 0.0;
+  };
 
   constexpr double pile = 0.998;
   constexpr double below = 0.9;
@@ -130,8 +136,8 @@ inline constexpr double log_position_max_m = 1e6;
     }
   }
   // Densities are counts over widths: 0.2 % and 9.8 % of the largest.
-  const bool ten_times_as_dense = static_cast<double>(in_pile) / (1.0 - pile) >=
-                                  10.0 * static_cast<double>(under_pile) / (pile - below);
+  const bool ten_times_as_dense =
+      static_cast<double>(in_pile) / (1.0 - pile) >= 10.0 * static_cast<double>(under_pile) / (pile - below);
   const double largest_usable_m = largest_below(lowest_m);
   if (in_pile < 10 || !ten_times_as_dense || largest_usable_m == 0.0) return {infinite_m, usable(largest_m)};
   return {lowest_m, usable(largest_usable_m)};
@@ -139,8 +145,8 @@ inline constexpr double log_position_max_m = 1e6;
 
 namespace detail {
 
-/// Brings what a file held into the order of time and applies the limits. `scans` are as read, all with as many
-/// readings as `beams.directions`; `file` is named in errors.
+/// Brings what a file held into the order of time and applies the limits. `scans` are as read, all with as
+/// many readings as `beams.directions`; `file` is named in errors.
 [[nodiscard]] inline RobotLog finish_log(std::vector<LogScan> scans, const RobotLogParams& params,
                                          std::optional<BeamAngles> angles, const Pose2& T_robot_laser,
                                          const std::filesystem::path& file) {
@@ -149,9 +155,10 @@ namespace detail {
   if (params.beams) angles = params.beams;
   if (!angles) angles = default_beam_angles(beam_count);
   if (!angles) {
-    throw InputError(file, "scans have " + std::to_string(beam_count) +
-                               " readings, whose angles are known for 180, 181, 360 and 361 only: give the angle of "
-                               "the first reading and the increment");
+    throw InputError(
+        file, "scans have " + std::to_string(beam_count) +
+                  " readings, whose angles are known for 180, 181, 360 and 361 only: give the angle of "
+                  "the first reading and the increment");
   }
   std::stable_sort(scans.begin(), scans.end(),
                    [](const LogScan& a, const LogScan& b) { return a.time_s < b.time_s; });

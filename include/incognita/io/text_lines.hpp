@@ -16,7 +16,8 @@ namespace incognita::detail {
   return word;
 }
 
-/// Calls visit(line_number, line), from 1, for each line that is neither empty nor a comment that starts with #.
+/// Calls visit(line_number, line), from 1, for each line that is neither empty nor a comment that starts with
+/// #.
 template <class Visit>
 void for_each_line(std::string_view text, Visit&& visit) {
   for (std::size_t number = 1; !text.empty(); ++number) {

@@ -29,11 +29,13 @@ struct RelationsError {
   double rotation_mean_rad = 0.0;
 };
 
-/// The metric of Kümmerle et al. (2009, "On measuring the accuracy of SLAM algorithms"), with the distance and the
-/// absolute turn of relation^-1 * (T_from^-1 * T_to). It needs no common frame and forgives no error twice: a bend of the
-/// map counts only in the relations across it. times_s ascend, one a pose; stamps match within tolerance_s.
-/// Throws std::invalid_argument for times that do not, or as many as there are poses. O(relations log poses).
-[[nodiscard]] inline RelationsError relations_error(std::span<const double> times_s, std::span<const Pose2> poses,
+/// The metric of Kümmerle et al. (2009, "On measuring the accuracy of SLAM algorithms"): the mean distance
+/// and the mean absolute turn of relation^-1 * (T_from^-1 * T_to). It needs no common frame, and a bend of
+/// the map counts only in the relations across it. times_s ascend, one a pose; stamps match within
+/// tolerance_s. Throws std::invalid_argument for times that fall or are not as many as the poses, and for a
+/// negative tolerance. O(relations log poses).
+[[nodiscard]] inline RelationsError relations_error(std::span<const double> times_s,
+                                                    std::span<const Pose2> poses,
                                                     std::span<const PoseRelation> relations,
                                                     double tolerance_s = 1e-5) {
   if (times_s.size() != poses.size()) {

@@ -20,8 +20,8 @@ inline void require_ascending(const char* where, std::span<const double> times_s
   }
 }
 
-/// The index of the stamp nearest to `time_s` among ascending ones (the first of equals), if it is not farther than
-/// tolerance_s. O(log n).
+/// The index of the stamp nearest to `time_s` among ascending ones (the first of equals), if it is not
+/// farther than tolerance_s. O(log n).
 [[nodiscard]] inline std::optional<std::size_t> find_stamp(std::span<const double> times_s, double time_s,
                                                            double tolerance_s) {
   const auto after = std::lower_bound(times_s.begin(), times_s.end(), time_s);
