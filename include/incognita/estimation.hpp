@@ -4,6 +4,7 @@
 /// `CorrelativeSearch` finds the pose again when odometry is too far off to register.
 #pragma once
 
+#include "incognita/estimation/compass.hpp"
 #include "incognita/estimation/correlative_search.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"

@@ -12,7 +12,22 @@ using namespace incognita;
 
 namespace {
 
-constexpr auto kCertain = [](const Surface<2>&) { return 1.0; };
+/// All surfaces are there with one probability.
+struct Certainty : CertainSurfaces {
+  double probability;
+  explicit Certainty(double p) : probability(p) {}
+  [[nodiscard]] double occupied_probability(const Surface<2>& /*surface*/) const { return probability; }
+};
+
+/// An excess variance from a function of the surface and the Jacobian.
+template <class Function>
+struct Excess : CertainSurfaces {
+  Function function;
+  explicit Excess(Function f) : function(f) {}
+  [[nodiscard]] double excess_variance_m2(const Surface<2>& surface, const Eigen::Vector3d& jacobian) const {
+    return function(surface, jacobian);
+  }
+};
 
 /// The surfaces of walls seen without error from `poses`.
 SurfaceMap<2> surfaces_of(const std::vector<room::Wall>& walls, const std::vector<Pose2>& poses) {
@@ -165,7 +180,7 @@ TEST_CASE("Registration finds a robot's pose in a turned room to millimetres", "
     PoseBelief belief{moved(truth, 0.05 * std::cos(angle_rad), 0.05 * std::sin(angle_rad), turn_rad), kWide};
     Registration last;
     for (int correction = 0; correction < 10; ++correction) {
-      last = register_scan(belief, scan, surfaces, kCertain, RegistrationParams{});
+      last = register_scan(belief, scan, surfaces, RegistrationParams{});
       belief.pose = last.belief.pose;
     }
     CAPTURE(draw, last.associations, last.residual_rms_m);
@@ -190,7 +205,7 @@ TEST_CASE("Where registration converges, the gradient of its cost vanishes", "[e
       scan.set_range_m(beam, scan.range_m(beam) + random.normal(0.0, 0.02));
     }
     const PoseBelief prior{moved(truth, 0.02, -0.01, 0.01), room::random_covariance(random, 0.03)};
-    const Pose2 found = register_scan(prior, scan, surfaces, kCertain, params).belief.pose;
+    const Pose2 found = register_scan(prior, scan, surfaces, params).belief.pose;
     const Cost cost(prior, scan, surfaces, params, found);
     CAPTURE(draw);
     REQUIRE(cost.gradient(found).norm() < 1e-4 * cost.gradient(prior.pose).norm());
@@ -216,7 +231,7 @@ TEST_CASE("Registration's covariance is the inverse of its cost's curvature", "[
   const Scan<2> scan = room::scan_of(walls, room::kTurned, beams);
   const PoseBelief prior{room::kTurned, kWide};
   const RegistrationParams params;
-  const Registration found = register_scan(prior, scan, surfaces, kCertain, params);
+  const Registration found = register_scan(prior, scan, surfaces, params);
   REQUIRE(found.associations == 9);
   REQUIRE(position_error_m(found.belief.pose, room::kTurned) < 1e-6);
   const Cost cost(prior, scan, surfaces, params, room::kTurned);
@@ -235,7 +250,7 @@ TEST_CASE("Registration's covariance is the inverse of its cost's curvature", "[
   const std::vector<Point<2>> once = beams.directions;
   beams.directions.insert(beams.directions.end(), once.begin(), once.end());
   const Registration doubled =
-      register_scan(prior, room::scan_of(walls, room::kTurned, beams), surfaces, kCertain, params);
+      register_scan(prior, room::scan_of(walls, room::kTurned, beams), surfaces, params);
   REQUIRE(doubled.associations == 18);
   REQUIRE((doubled.belief.covariance - found.belief.covariance).norm() < 1e-12);
 }
@@ -249,7 +264,7 @@ TEST_CASE("The less certain the surface, the less registration trusts it", "[est
   double error_m = 0.0;
   for (const double p : {0.95, 0.7, 0.5, 0.2}) {
     const Registration found = register_scan(
-        prior, scan, surfaces, [p](const Surface<2>&) { return p; }, RegistrationParams{});
+        prior, scan, surfaces, RegistrationParams{}, Certainty(p));
     REQUIRE(found.belief.covariance.trace() > trace);
     REQUIRE(position_error_m(found.belief.pose, room::kTurned) > error_m);
     trace = found.belief.covariance.trace();
@@ -259,8 +274,8 @@ TEST_CASE("The less certain the surface, the less registration trusts it", "[est
   RegistrationParams strong;
   strong.gamma *= 2.2525 / 0.01;
   const Registration half = register_scan(
-      prior, scan, surfaces, [](const Surface<2>&) { return 0.5; }, strong);
-  const Registration certain = register_scan(prior, scan, surfaces, kCertain, RegistrationParams{});
+      prior, scan, surfaces, strong, Certainty(0.5));
+  const Registration certain = register_scan(prior, scan, surfaces, RegistrationParams{});
   REQUIRE((half.belief.covariance - certain.belief.covariance).norm() <
           1e-9 * certain.belief.covariance.norm());
 }
@@ -273,11 +288,11 @@ TEST_CASE("An error that surfaces share is not averaged over beams", "[estimatio
   // All surfaces shift along x with a variance of 0.01 m^2: a residual drifts by its Jacobian's x.
   const auto shifts = [](const Surface<2>&, const Eigen::Vector3d& jacobian) { return 0.01 * jacobian[0] * jacobian[0]; };
   RegistrationParams params;
-  const Registration firm = register_scan(prior, scan, surfaces, kCertain, params);
-  const Registration shifting = register_scan(prior, scan, surfaces, kCertain, params, shifts);
+  const Registration firm = register_scan(prior, scan, surfaces, params);
+  const Registration shifting = register_scan(prior, scan, surfaces, params, Excess(shifts));
   params.gamma *= 1e6;
-  const Registration many = register_scan(prior, scan, surfaces, kCertain, params, shifts);
-  const Registration many_firm = register_scan(prior, scan, surfaces, kCertain, params);
+  const Registration many = register_scan(prior, scan, surfaces, params, Excess(shifts));
+  const Registration many_firm = register_scan(prior, scan, surfaces, params);
   const auto along = [](const Registration& found, Eigen::Index axis) {
     return found.belief.covariance(axis, axis);
   };
@@ -292,7 +307,7 @@ TEST_CASE("An error that surfaces share is not averaged over beams", "[estimatio
     if (surface.planar) CHECK(jacobian[2] == Approx(lever_m).margin(0.3));
     return 0.0;
   };
-  const Registration same = register_scan(prior, scan, surfaces, kCertain, RegistrationParams{}, turns);
+  const Registration same = register_scan(prior, scan, surfaces, RegistrationParams{}, Excess(turns));
   REQUIRE(same.belief.covariance == firm.belief.covariance);
 }
 
@@ -309,13 +324,13 @@ TEST_CASE("Without associations the posterior is the prior", "[estimation]") {
     REQUIRE(found.belief.pose.yaw_rad == prior.pose.yaw_rad);
     REQUIRE(found.belief.covariance == prior.covariance);
   };
-  require_prior(register_scan(prior, scan, SurfaceMap<2>(), kCertain, {}));
-  require_prior(register_scan(prior, Scan<2>(circular_beams(90, 10.0)), surfaces, kCertain, {}));
-  require_prior(register_scan(prior, scan, surfaces, [](const Surface<2>&) { return -1.0; }, {}));
+  require_prior(register_scan(prior, scan, SurfaceMap<2>(), {}));
+  require_prior(register_scan(prior, Scan<2>(circular_beams(90, 10.0)), surfaces, {}));
+  require_prior(register_scan(prior, scan, surfaces, {}, Certainty(-1.0)));
   Scan<2> bad(circular_beams(90, 10.0));
   for (std::size_t beam = 0; beam < 90; ++beam)
     bad.set_range_m(beam, std::numeric_limits<double>::quiet_NaN());
-  require_prior(register_scan(prior, bad, surfaces, kCertain, {}));
+  require_prior(register_scan(prior, bad, surfaces, {}));
 }
 
 TEST_CASE("A single wall corrects along its normal and the heading, and nothing else", "[estimation]") {
@@ -336,7 +351,7 @@ TEST_CASE("A single wall corrects along its normal and the heading, and nothing 
   const Eigen::Matrix3d prior_covariance = belief.covariance;
   for (int correction = 0; correction < 10; ++correction) {
     belief =
-        register_scan({belief.pose, prior_covariance}, scan, surfaces, kCertain, RegistrationParams{}).belief;
+        register_scan({belief.pose, prior_covariance}, scan, surfaces, RegistrationParams{}).belief;
   }
   REQUIRE(normal.dot(belief.pose.position()) == Approx(0.0).margin(1e-4));
   REQUIRE(belief.pose.yaw_rad == Approx(angle_rad).margin(1e-4));
@@ -352,11 +367,11 @@ TEST_CASE("Registration takes a prior that is certain of a direction, or of all"
   const SurfaceMap<2> surfaces = surfaces_of(walls, {room::kTurned});
   const Scan<2> scan = room::scan_of(walls, room::kTurned);
   const Pose2 off = moved(room::kTurned, 0.02, 0.02, 0.0);
-  const Registration exact = register_scan({off, Eigen::Matrix3d::Zero()}, scan, surfaces, kCertain, {});
+  const Registration exact = register_scan({off, Eigen::Matrix3d::Zero()}, scan, surfaces, {});
   REQUIRE(position_error_m(exact.belief.pose, off) == 0.0);
   REQUIRE(exact.belief.covariance == Eigen::Matrix3d::Zero());
   const Registration partly = register_scan({off, Eigen::Vector3d(0.01, 0.0, 0.01).asDiagonal()}, scan,
-                                            surfaces, kCertain, RegistrationParams{});
+                                            surfaces, RegistrationParams{});
   REQUIRE(partly.belief.pose.y_m == off.y_m);
   REQUIRE(std::abs(partly.belief.pose.x_m - room::kTurned.x_m) < 0.012);
 }

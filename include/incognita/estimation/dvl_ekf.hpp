@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "incognita/estimation/compass.hpp"
 #include "incognita/estimation/estimator.hpp"
 #include "incognita/estimation/map_drift.hpp"
 #include "incognita/estimation/registration.hpp"
@@ -41,6 +42,9 @@ class DvlEkf {
     RegistrationParams registration;
     SurfaceMap<2>::Params surfaces;
     MapDrift::Params drift;
+    /// Whether headings are also measured by the building's dominant directions, where it has them.
+    bool uses_compass = true;
+    CompassParams compass;
     RayUpdateParams ray;  ///< for Form::ray
     /// For imagined scans: divided by the number of beams, so that little is learned where little is seen.
     RayUpdateParams imagined{{}, 1.2, Tempering::beams, MixtureVariance::squared_weights};
@@ -55,7 +59,8 @@ class DvlEkf {
         in_map_(params.start.covariance),
         driven_(params.start),
         surfaces_(params.surfaces),
-        drift_(params.drift) {
+        drift_(params.drift),
+        compass_(params.compass) {
     require_belief("DvlEkf", params.start);
     require_positive("DvlEkf", "noise.position_m_per_sqrt_s", params.noise.position_m_per_sqrt_s);
     require_positive("DvlEkf", "noise.yaw_rad_per_sqrt_s", params.noise.yaw_rad_per_sqrt_s);
@@ -94,11 +99,13 @@ class DvlEkf {
       if (stands_at_start()) {
         ++scans_held_;
         believe(params_.start);
+        if (params_.uses_compass) (void)compass_.measure(scan, belief_.pose.yaw_rad);
         return {};
       }
       scans_held_ = params_.start_scans_held;
       believe(driven_);
     }
+    if (params_.uses_compass) correct_by_compass(scan);
     return params_.form == Form::registration ? correct_by_registration(scan, map) : correct_by_rays(scan, map);
   }
 
@@ -112,7 +119,8 @@ class DvlEkf {
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
       if (scan.reading(beam) != Reading::hit) continue;
       const Eigen::Vector2d direction = rotation * scan.direction(beam);
-      surfaces_.add(belief_.pose.position() + direction * scan.range_m(beam), direction, piece);
+      surfaces_.add(belief_.pose.position() + direction * scan.range_m(beam), direction, piece,
+                    [this](int of, const Eigen::Vector2d& at_m) { return drift_.shift_m(of, at_m); });
     }
     surfaces_.refresh_normals();
   }
@@ -127,10 +135,11 @@ class DvlEkf {
     const double turn_rad = angle_between_rad(belief_.pose.yaw_rad, yaw_rad) / (prior(2, 2) + variance_rad2);
     const Pose2 pose{belief_.pose.x_m + prior(0, 2) * turn_rad, belief_.pose.y_m + prior(1, 2) * turn_rad,
                      wrap_angle_rad(belief_.pose.yaw_rad + prior(2, 2) * turn_rad)};
-    // Both parts of the covariance learn from it, each taking the other for noise.
+    // Both parts of the covariance learn from it, each taking the other for noise. The map around turns with its drift.
+    const double off_rad = angle_between_rad(belief_.pose.yaw_rad, yaw_rad);
     const double in_map_rad2 = in_map_(2, 2);
     const Eigen::Matrix3d in_map = yaw_updated_covariance(in_map_, drift_.covariance()(2, 2) + variance_rad2);
-    drift_.correct_turn(in_map_rad2 + variance_rad2);
+    (void)drift_.correct_turn(off_rad, in_map_rad2 + variance_rad2);
     believe({pose, in_map});
   }
 
@@ -160,6 +169,27 @@ class DvlEkf {
            std::abs(angle_between_rad(start.yaw_rad, driven_.pose.yaw_rad)) <= params_.start_hold_turn_rad;
   }
 
+  /// What register_scan asks of the surfaces.
+  template <class MapType>
+  struct SurfacesInMap {
+    const DvlEkf& filter;
+    const MapType& map;
+
+    [[nodiscard]] double occupied_probability(const Surface<2>& surface) const {
+      // The belief's hits lie a little behind the measured face, so look there too.
+      const Eigen::Vector2d face_m = sum(surface.mean_m, shift_m(surface, surface.mean_m));
+      const double at_face = map.probability(map.lattice().index_of(face_m));
+      const double behind = map.probability(map.lattice().index_of(sum(face_m, scaled(surface.view, 0.1))));
+      return filter.admitted(std::max(at_face, behind));
+    }
+    [[nodiscard]] double excess_variance_m2(const Surface<2>& surface, const Eigen::Vector3d& jacobian) const {
+      return filter.drift_.variance_beyond_reference_m2(surface.piece, jacobian);
+    }
+    [[nodiscard]] Eigen::Vector2d shift_m(const Surface<2>& surface, const Eigen::Vector2d& at_m) const {
+      return filter.drift_.shift_m(surface.piece, at_m);
+    }
+  };
+
   /// The pose, with its covariance in the map around.
   void believe(const PoseBelief& in_map) {
     in_map_ = in_map.covariance;
@@ -167,9 +197,14 @@ class DvlEkf {
     add_to(belief_.covariance, drift_.covariance_at(in_map.pose.position()));
   }
 
+  void correct_by_compass(const Scan<2>& scan) {
+    const auto heading = compass_.measure(scan, belief_.pose.yaw_rad);
+    if (heading) correct_heading(heading->yaw_rad, std::sqrt(heading->variance_rad2));
+  }
+
   /// Registers to the oldest surfaces in sight from now on. A few beams are enough to tell which.
-  template <class Probability>
-  void choose_reference(const Scan<2>& scan, const Probability& occupied_probability) {
+  template <class SurfaceBelief>
+  void choose_reference(const Scan<2>& scan, const SurfaceBelief& surface_belief) {
     const Eigen::Vector2d origin = belief_.pose.position();
     const Eigen::Matrix2d rotation = belief_.pose.rotation();
     drift_.begin_matches(origin);
@@ -177,8 +212,8 @@ class DvlEkf {
       if (scan.reading(beam) != Reading::hit) continue;
       const Eigen::Vector2d direction = product(rotation, scan.direction(beam));
       const Eigen::Vector2d end_point_m = sum(origin, scaled(direction, scan.range_m(beam)));
-      const SurfaceMatch match = match_surface(surfaces_, end_point_m, direction, params_.registration);
-      if (match.surface == nullptr || occupied_probability(*match.surface) < 0.0) continue;
+      const SurfaceMatch match = match_surface(surfaces_, end_point_m, direction, params_.registration, surface_belief);
+      if (match.surface == nullptr || surface_belief.occupied_probability(*match.surface) < 0.0) continue;
       drift_.add_match(match.surface->piece);
     }
     add_to(in_map_, drift_.choose_reference());
@@ -186,19 +221,10 @@ class DvlEkf {
 
   template <class MapType>
   CorrectionReport correct_by_registration(const Scan<2>& scan, const MapType& map) {
-    const auto probability = [&](const Surface<2>& surface) {
-      // The belief's hits lie a little behind the measured face, so look there too.
-      const double at_face = map.probability(map.lattice().index_of(surface.mean_m));
-      const double behind = map.probability(map.lattice().index_of(sum(surface.mean_m, scaled(surface.view, 0.1))));
-      return admitted(std::max(at_face, behind));
-    };
-    choose_reference(scan, probability);
-    const auto excess_m2 = [&](const Surface<2>& surface, const Eigen::Vector3d& jacobian) {
-      return drift_.variance_beyond_reference_m2(surface.piece, jacobian);
-    };
-    const PoseBelief prior{belief_.pose, in_map_};
+    const SurfacesInMap<MapType> surface_belief{*this, map};
+    choose_reference(scan, surface_belief);
     const Registration registration =
-        register_scan(prior, scan, surfaces_, probability, params_.registration, excess_m2);
+        register_scan({belief_.pose, in_map_}, scan, surfaces_, params_.registration, surface_belief);
     believe(registration.belief);
     return {registration.associations, registration.residual_rms_m};
   }
@@ -243,6 +269,7 @@ class DvlEkf {
   PoseBelief driven_;  ///< by odometry alone, since the start, until ready
   SurfaceMap<2> surfaces_;
   MapDrift drift_;
+  Compass compass_;
   int scans_held_ = 0;
 };
 

@@ -21,17 +21,19 @@ namespace incognita {
 /// two parts: that of the pose in the piece it is registered to, which scans reduce, and the drift of that piece, which
 /// only older pieces reduce. Each piece stands for the surfaces first seen within a few scans; its drift is that of the
 /// reference at its birth plus a share of the pose's covariance in it. Pieces with less drift than others are older
-/// links of the chain, so two pieces differ by the difference of their covariances. Not thread safe.
+/// links of the chain, so two pieces differ by the difference of their covariances. What is measured of a piece's turn moves
+/// it and, by their common part, all others; nothing stored is touched, a piece's surfaces are shifted as they are
+/// looked at. Not thread safe.
 class MapDrift {
  public:
   struct Params {
     /// How much of the pose's covariance a new piece takes over. Not all: its surfaces are means over many scans, whose
     /// errors are independent after a few of them. 0 switches the model off: the map is taken for the truth.
-    double inherited_share = 0.1;
+    double inherited_share = 0.15;
     /// The reference is the piece below which this share of the matched beams falls, by drift: the oldest in sight, but not
     /// one that a few wrong matches suggest. In [0, 1].
     double reference_quantile = 0.1;
-    int scans_per_piece = 10;  ///< >= 1; memory is 72 bytes a piece
+    int scans_per_piece = 10;  ///< >= 1; memory is 96 bytes a piece
 
     /// Throws std::invalid_argument for values outside of their bounds.
     void validate() const {
@@ -60,7 +62,7 @@ class MapDrift {
     if (scans_++ % params_.scans_per_piece == 0) {
       Eigen::Matrix3d born = reference_;
       add_to(born, carried_covariance(covariance, {-position_m[0], -position_m[1]}), params_.inherited_share);
-      pieces_.push_back(born);
+      pieces_.push_back({born, Eigen::Vector3d(0.0, 0.0, 0.0)});
     }
     return static_cast<int>(pieces_.size()) - 1;
   }
@@ -75,7 +77,7 @@ class MapDrift {
   }
 
   void add_match(int piece) {
-    matched_.emplace_back(position_variance_m2(pieces_[static_cast<std::size_t>(piece)]), piece);
+    matched_.emplace_back(position_variance_m2(pieces_[static_cast<std::size_t>(piece)].drift), piece);
   }
 
   /// Makes the chosen piece the reference, and returns what its choice adds to the pose's covariance: the old reference's
@@ -89,17 +91,45 @@ class MapDrift {
     const double old_m2 = position_variance_m2(reference_);
     // In proportion, which is positive semi-definite whatever the two covariances' shapes.
     if (old_m2 > chosen_m2) add_to(added, covariance_at(position_m_), 1.0 - chosen_m2 / old_m2);
-    reference_ = pieces_[static_cast<std::size_t>(piece)];
+    reference_ = pieces_[static_cast<std::size_t>(piece)].drift;
     return added;
   }
 
-  /// The reference's turn was measured, with this variance.
-  void correct_turn(double variance_rad2) { reference_ = yaw_updated_covariance(reference_, variance_rad2); }
+  /// How far a piece is shifted, at a point of the map that is not far from it.
+  [[nodiscard]] Eigen::Vector2d shift_m(int piece, const Eigen::Vector2d& at_m) const {
+    const Eigen::Vector3d& twist = pieces_[static_cast<std::size_t>(piece)].twist;
+    return {twist[0] - twist[2] * at_m[1], twist[1] + twist[2] * at_m[0]};
+  }
+
+  /// The turn of the reference was measured: it is `turn_rad` more than believed, with this variance. Turns the pieces that
+  /// share in it and returns the twist of the reference, which a pose in it must take part in. O(pieces).
+  Eigen::Vector3d correct_turn(double turn_rad, double variance_rad2) {
+    const double prior_rad2 = reference_(2, 2);
+    Eigen::Vector3d twist(0.0, 0.0, 0.0);
+    if (prior_rad2 <= 0.0) return twist;
+    const double innovation_rad2 = prior_rad2 + variance_rad2;
+    twist = scaled(column(reference_, 2), turn_rad / innovation_rad2);
+    for (Piece& piece : pieces_) {
+      const double own_rad2 = piece.drift(2, 2);
+      if (own_rad2 <= 0.0) continue;
+      // Of two links of a chain of independent steps, the older one's error is common to both.
+      const bool is_older = own_rad2 < prior_rad2;
+      const double common_rad2 = is_older ? own_rad2 : prior_rad2;
+      const Eigen::Vector3d moved =
+          is_older ? scaled(column(piece.drift, 2), turn_rad / innovation_rad2) : twist;
+      for (int axis = 0; axis < 3; ++axis) piece.twist[axis] += moved[axis];
+      // The noise with which this piece's own turn was measured: what is not common to both adds to it.
+      const double ratio = own_rad2 / common_rad2;
+      piece.drift = yaw_updated_covariance(piece.drift, ratio * ratio * innovation_rad2 - own_rad2);
+    }
+    reference_ = yaw_updated_covariance(reference_, variance_rad2);
+    return twist;
+  }
 
   /// The variance of a residual that drifts with `piece`, beyond the reference's; `jacobian` is the residual's derivative by
   /// the twist.
   [[nodiscard]] double variance_beyond_reference_m2(int piece, const Eigen::Vector3d& jacobian) const {
-    const Eigen::Matrix3d& drift = pieces_[static_cast<std::size_t>(piece)];
+    const Eigen::Matrix3d& drift = pieces_[static_cast<std::size_t>(piece)].drift;
     double variance_m2 = 0.0;
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) {
@@ -110,6 +140,15 @@ class MapDrift {
   }
 
  private:
+  struct Piece {
+    Eigen::Matrix3d drift;
+    Eigen::Vector3d twist;  // how far it was moved since it was born
+  };
+
+  [[nodiscard]] static Eigen::Vector3d column(const Eigen::Matrix3d& matrix, int index) {
+    return {matrix(0, index), matrix(1, index), matrix(2, index)};
+  }
+
   /// The sum of the variances of the two coordinates, at the position that is being matched.
   [[nodiscard]] double position_variance_m2(const Eigen::Matrix3d& drift) const {
     const double x = position_m_[0];
@@ -119,7 +158,7 @@ class MapDrift {
 
   Params params_;
   Eigen::Matrix3d reference_ = Eigen::Matrix3d::Zero();
-  std::vector<Eigen::Matrix3d> pieces_;
+  std::vector<Piece> pieces_;
   std::vector<std::pair<double, int>> matched_;  // drift at the position, piece
   Eigen::Vector2d position_m_{0.0, 0.0};
   long scans_ = 0;

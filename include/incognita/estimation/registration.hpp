@@ -62,19 +62,40 @@ struct Registration {
 struct SurfaceMatch {
   const Surface<2>* surface = nullptr;
   bool is_line = false;
+  Eigen::Vector2d offset_m{0.0, 0.0};  ///< from the surface's mean to the end point
+};
+
+/// What is believed of surfaces beyond what was measured of them: here, that they are walls where they were measured.
+struct CertainSurfaces {
+  /// That something is there, in [0, 1]; < 0 leaves the surface out.
+  [[nodiscard]] double occupied_probability(const Surface<2>& /*surface*/) const { return 1.0; }
+
+  /// The variance that the surface itself has along a residual, beyond others; `jacobian` is the residual's derivative by a
+  /// twist of the surface about the map's origin.
+  [[nodiscard]] double excess_variance_m2(const Surface<2>& /*surface*/, const Eigen::Vector3d& /*jacobian*/) const {
+    return 0.0;
+  }
+
+  /// How far from where it was measured the surface is thought to be, at a point beside it.
+  [[nodiscard]] Eigen::Vector2d shift_m(const Surface<2>& /*surface*/, const Eigen::Vector2d& /*at_m*/) const {
+    return {0.0, 0.0};
+  }
 };
 
 /// The best surface for an end point seen along `direction`, both in the map's frame: the line with the smallest
 /// r^2 + along_weight t^2 (r across, t along it), else the nearest point of the same side.
-[[nodiscard]] inline SurfaceMatch match_surface(const SurfaceMap<2>& surfaces, const Eigen::Vector2d& end_point_m,
-                                                const Eigen::Vector2d& direction, const RegistrationParams& params) {
-  SurfaceMatch line{nullptr, true};
-  SurfaceMatch point{nullptr, false};
+template <class SurfaceBelief = CertainSurfaces>
+[[nodiscard]] SurfaceMatch match_surface(const SurfaceMap<2>& surfaces, const Eigen::Vector2d& end_point_m,
+                                         const Eigen::Vector2d& direction, const RegistrationParams& params,
+                                         const SurfaceBelief& belief = {}) {
+  SurfaceMatch line{nullptr, true, {}};
+  SurfaceMatch point{nullptr, false, {}};
   double line_cost_m2 = std::numeric_limits<double>::infinity();
   double point_cost_m2 = params.point_distance_max_m * params.point_distance_max_m;
   surfaces.for_each_near(end_point_m, [&](const Surface<2>& surface) {
     if (!surface.faces(direction)) return;
-    const Eigen::Vector2d offset_m = difference(end_point_m, surface.mean_m);
+    const Eigen::Vector2d offset_m =
+        difference(difference(end_point_m, surface.mean_m), belief.shift_m(surface, end_point_m));
     const double distance_m2 = dot(offset_m, offset_m);
     if (surface.planar) {
       const double across_m = dot(surface.normal, offset_m);
@@ -84,11 +105,13 @@ struct SurfaceMatch {
           cost_m2 < line_cost_m2) {
         line_cost_m2 = cost_m2;
         line.surface = &surface;
+        line.offset_m = offset_m;
       }
     }
     if (distance_m2 < point_cost_m2) {
       point_cost_m2 = distance_m2;
       point.surface = &surface;
+      point.offset_m = offset_m;
     }
   });
   return line.surface != nullptr ? line : point;
@@ -108,24 +131,16 @@ template <class Matrix, class Vector>
   return posterior * (tempered * (information * from_prior + gradient));
 }
 
-/// No surface is less certain than another but by its belief.
-struct NoExcessVariance {
-  [[nodiscard]] double operator()(const Surface<2>& /*surface*/, const Eigen::Vector3d& /*jacobian*/) const { return 0.0; }
-};
-
 /// Minimises the prior's Mahalanobis distance plus the tempered, robust distances of the end points to their surfaces,
 ///   sum_k w_k r_k^2 / (N_h (R_x / gamma + E_k)),
-/// with R_x of Seo et al., (10), from occupied_probability(surface) in [0, 1]; a probability < 0 leaves the surface out.
-/// E_k = excess_variance_m2(surface, jacobian), the variance that the surface itself has along the residual (0 by
-/// default), is not tempered by gamma: beams do not average an error that their surfaces share. `jacobian` is the
-/// residual's derivative by a twist of the surface about the map's origin.
+/// with R_x of Seo et al., (10), from the belief's occupied_probability. E_k, its excess_variance_m2, is not tempered by
+/// gamma: beams do not average an error that their surfaces share.
 /// The paper allows for such a registration in the estimation step (section IV-B, property 4); points on lines are the
 /// reading's answer to residuals that snap to a lattice. Without associations the posterior is the prior.
 /// O(beams * iterations); no allocation; safe to call from many threads.
-template <class Probability, class ExcessVariance = NoExcessVariance>
+template <class SurfaceBelief = CertainSurfaces>
 [[nodiscard]] Registration register_scan(const PoseBelief& prior, const Scan<2>& scan, const SurfaceMap<2>& surfaces,
-                                         Probability&& occupied_probability, const RegistrationParams& params,
-                                         ExcessVariance&& excess_variance_m2 = {}) {
+                                         const RegistrationParams& params, const SurfaceBelief& belief = {}) {
   Registration result{prior, 0, 0, 0.0};
   for (int iteration = 0; iteration < params.iterations; ++iteration) {
     const Eigen::Matrix2d rotation = result.belief.pose.rotation();
@@ -140,17 +155,17 @@ template <class Probability, class ExcessVariance = NoExcessVariance>
       const Eigen::Vector2d direction = product(rotation, scan.direction(beam));
       const Eigen::Vector2d rotated_m = scaled(direction, scan.range_m(beam));
       const Eigen::Vector2d end_point_m = sum(origin, rotated_m);
-      const SurfaceMatch match = match_surface(surfaces, end_point_m, direction, params);
+      const SurfaceMatch match = match_surface(surfaces, end_point_m, direction, params, belief);
       if (match.surface == nullptr) continue;
-      const double probability = occupied_probability(*match.surface);
+      const double probability = belief.occupied_probability(*match.surface);
       if (probability < 0.0) continue;
-      const Eigen::Vector2d offset_m = difference(end_point_m, match.surface->mean_m);
+      const Eigen::Vector2d& offset_m = match.offset_m;
       const double variance_m2 = measurement_variance_m2(params.dvl, probability, params.mixture);
       const double residual_m = match.is_line ? dot(match.surface->normal, offset_m) : norm(offset_m);
       const double scaled_residual = residual_m / params.residual_scale_m;
       const double robust = 1.0 / (1.0 + scaled_residual * scaled_residual);
       const auto weight = [&](const Eigen::Vector2d& axis) {
-        const double excess_m2 = excess_variance_m2(*match.surface, end_point_jacobian(axis, end_point_m));
+        const double excess_m2 = belief.excess_variance_m2(*match.surface, end_point_jacobian(axis, end_point_m));
         return robust / (variance_m2 + params.gamma * excess_m2);
       };
       ++associations;

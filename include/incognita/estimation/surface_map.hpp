@@ -50,12 +50,12 @@ template <int Dim = 2>
 class SurfaceMap {
  public:
   struct Params {
-    double cell_m = 0.2;
+    double cell_m = 0.1;               ///< no larger than the jambs of doors: along a corridor they alone are seen
     int count_max = 50;                ///< a surface is frozen at this many points
-    double pool_radius_m = 0.3;        ///< a normal pools the surfaces of the neighbourhood this near ...
+    double pool_radius_m = 0.2;        ///< a normal pools the surfaces of the neighbourhood this near ...
     double pool_offset_m = 0.06;       ///< ... and this near to their common line (plane)
     int planar_count_min = 4;
-    double flatness = 0.1;             ///< planar: smallest eigenvalue <= flatness * next + roughness_m2
+    double flatness = 0.03;            ///< planar: smallest eigenvalue <= flatness * next + roughness_m2
     double roughness_m2 = 4e-5;        ///< allows for the noise of ranges
     double spread_min_m = 0.02;        ///< planar: sqrt of the next eigenvalue at least this
   };
@@ -81,8 +81,10 @@ class SurfaceMap {
   void reserve(const Box<Point<Dim>>& box_m) { slots_.grow_to_include(slots_.lattice().cells_of(box_m)); }
 
   /// Adds the end point of a beam of the given unit direction. The point must be finite and within the lattice's
-  /// reach. A surface keeps the `piece` it was first seen with. Normals are brought up to date by refresh_normals.
-  void add(const Point<Dim>& point_m, const Point<Dim>& direction, int piece = 0) {
+  /// reach. A surface keeps the `piece` it was first seen with, and all its points are moved back by shift_m(its piece,
+  /// point). Normals are brought up to date by refresh_normals.
+  template <class Shift>
+  void add(const Point<Dim>& point_m, const Point<Dim>& direction, int piece, Shift&& shift_m) {
     const Index<Dim> index = slots_.lattice().index_of(point_m);
     if (!slots_.contains(index)) slots_.grow_to_include(box_of_cell<Dim>(index));
     std::int32_t& slot = slots_[slots_.offset_of(index)];
@@ -97,8 +99,12 @@ class SurfaceMap {
       ++size_;
       surface->piece = piece;
     }
-    surface->add(point_m, direction);
+    surface->add(difference(point_m, Point<Dim>(shift_m(surface->piece, point_m))), direction);
     changed_.push_back({index, static_cast<int>(surface - cell.sides.data())});
+  }
+
+  void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
+    add(point_m, direction, 0, [](int /*piece*/, const Point<Dim>& /*at*/) { return Point<Dim>(Point<Dim>::Zero()); });
   }
 
   /// Recomputes the normals of the surfaces that grew since the last call.

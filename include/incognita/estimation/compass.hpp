@@ -1,0 +1,167 @@
+/// A heading from the walls: in most buildings they stand at right angles.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "incognita/core/angles.hpp"
+#include "incognita/core/error.hpp"
+#include "incognita/sensor/line_segments.hpp"
+#include "incognita/sensor/scan.hpp"
+
+namespace incognita {
+
+/// A turn brought into (-pi/4, pi/4]: two perpendicular directions are one.
+[[nodiscard]] inline double wrap_quarter_turn_rad(double angle_rad) {
+  return std::remainder(angle_rad, 0.5 * std::numbers::pi);
+}
+
+/// The dominant direction of the walls in a scan.
+struct WallDirection {
+  double angle_rad;             ///< in the sensor's frame, a quarter turn's multiple apart from its equals
+  double noise_variance_rad2;   ///< of that angle, from the noise of the ranges
+  double walls_variance_rad2;   ///< of that angle, from walls that are off the right angle
+  double wall_scatter_rad2;     ///< how far one wall is off, squared, as this scan has it; may be negative
+  std::size_t walls;            ///< the pieces that stand parallel or perpendicular to it ...
+  double share;                 ///< ... and their share of the straight pieces' length
+};
+
+/// Parameters of wall_direction and Compass.
+struct CompassParams {
+  LineSegmentParams segments;
+  double wall_sigma_rad = 0.01;     ///< how far walls are off the right angle, before the building has shown it ...
+  double wall_sigma_walls = 50;     ///< ... by more walls than so many, >= 1
+  double inlier_max_rad = 0.05;     ///< a wall this near to the dominant direction belongs to it
+  double length_min_m = 3.0;        ///< of all straight pieces together: less says nothing
+  double share_min = 0.6;           ///< below, a scan, or the mean over scans, has no dominant direction
+  double memory_scans = 100;        ///< over how many scans means are kept, >= 1
+  /// Scans of the same walls repeat their errors: how many scans count as one, >= 1. 100 are 10 s before the same walls.
+  double scans_a_view = 100;
+
+  /// Throws std::invalid_argument for values outside of their bounds.
+  void validate() const {
+    segments.validate();
+    require_positive("CompassParams", "wall_sigma_rad", wall_sigma_rad);
+    require_positive("CompassParams", "inlier_max_rad", inlier_max_rad);
+    require_positive("CompassParams", "length_min_m", length_min_m);
+    require(share_min > 0.0 && share_min <= 1.0, "CompassParams", "share_min", share_min, "in (0, 1]");
+    require(wall_sigma_walls >= 1.0, "CompassParams", "wall_sigma_walls", wall_sigma_walls, ">= 1");
+    require(memory_scans >= 1.0, "CompassParams", "memory_scans", memory_scans, ">= 1");
+    require(scans_a_view >= 1.0, "CompassParams", "scans_a_view", scans_a_view, ">= 1");
+  }
+};
+
+/// The direction that most of the straight pieces' length is parallel or perpendicular to, refined over those that are.
+/// wall_variance_rad2 is how far a wall of this building is off, squared. None when the pieces are too short together.
+/// O(pieces).
+[[nodiscard]] inline std::optional<WallDirection> wall_direction(const std::vector<LineSegment>& segments,
+                                                                 double wall_variance_rad2,
+                                                                 const CompassParams& params) {
+  // Angles times four are the same for all walls of a rectangular building.
+  double x = 0.0;
+  double y = 0.0;
+  double length_m = 0.0;
+  for (const LineSegment& segment : segments) {
+    x += segment.length_m * std::cos(4.0 * segment.angle_rad);
+    y += segment.length_m * std::sin(4.0 * segment.angle_rad);
+    length_m += segment.length_m;
+  }
+  if (length_m < params.length_min_m) return std::nullopt;
+  WallDirection found{0.25 * std::atan2(y, x), 0.0, 0.0, 0.0, 0, 0.0};
+  for (int pass = 0; pass < 2; ++pass) {
+    found = {found.angle_rad, 0.0, 0.0, 0.0, 0, 0.0};
+    double turn = 0.0;
+    double information = 0.0;
+    for (const LineSegment& segment : segments) {
+      const double off_rad = wrap_quarter_turn_rad(segment.angle_rad - found.angle_rad);
+      if (std::abs(off_rad) > params.inlier_max_rad) continue;
+      const double weight = 1.0 / (segment.variance_rad2 + wall_variance_rad2);
+      turn += weight * off_rad;
+      information += weight;
+      found.noise_variance_rad2 += weight * weight * segment.variance_rad2;
+      found.walls_variance_rad2 += weight * weight * wall_variance_rad2;
+      found.wall_scatter_rad2 += off_rad * off_rad - segment.variance_rad2;
+      found.share += segment.length_m / length_m;
+      ++found.walls;
+    }
+    if (found.walls == 0) return std::nullopt;
+    found.noise_variance_rad2 /= information * information;
+    found.walls_variance_rad2 /= information * information;
+    found.wall_scatter_rad2 /= static_cast<double>(found.walls);
+    found.angle_rad = wrap_quarter_turn_rad(found.angle_rad + turn / information);
+  }
+  return found;
+}
+
+/// Keeps the direction of a building's walls in the map's frame and measures headings by it. The direction is learned
+/// as the mean over all scans, because the first ones are few and may have seen walls that are not like the others. Silent as long as scans, or their mean, have no dominant direction: in round and oblique buildings.
+/// Not thread safe.
+class Compass {
+ public:
+  /// A heading and its variance.
+  struct Heading {
+    double yaw_rad;
+    double variance_rad2;
+  };
+
+  Compass() = default;
+
+  /// Throws std::invalid_argument for parameters outside of their bounds.
+  explicit Compass(const CompassParams& params) : params_(params) { params_.validate(); }
+
+  /// The heading that the walls in `scan` give to a robot that believes in yaw_rad; none when they give none. Learns from the
+  /// scan.
+  [[nodiscard]] std::optional<Heading> measure(const Scan<2>& scan, double yaw_rad) {
+    find_line_segments(scan, params_.segments, segments_);
+    const std::optional<WallDirection> seen = wall_direction(segments_, wall_variance_rad2(), params_);
+    if (!seen) return std::nullopt;
+    const double memory = std::min(scans_ += 1.0, params_.memory_scans);
+    mean_share_ += (seen->share - mean_share_) / memory;
+    const auto walls = static_cast<double>(seen->walls);
+    walls_ += walls;
+    wall_scatter_rad2_ += (seen->wall_scatter_rad2 - wall_scatter_rad2_) * walls / walls_;
+    if (seen->share < params_.share_min || mean_share_ < params_.share_min) return std::nullopt;
+
+    const double variance_rad2 = params_.scans_a_view * (seen->noise_variance_rad2 + seen->walls_variance_rad2);
+    const double in_map_rad = yaw_rad + seen->angle_rad;
+    if (measurements_ == 0.0) {
+      measurements_ = 1.0;
+      direction_rad_ = in_map_rad;
+      return std::nullopt;
+    }
+    const double turn_rad = wrap_quarter_turn_rad(direction_rad_ - in_map_rad);
+    if (std::abs(turn_rad) > params_.inlier_max_rad) return std::nullopt;
+    const Heading heading{wrap_angle_rad(yaw_rad + turn_rad), variance_rad2 * (1.0 + 1.0 / measurements_)};
+    measurements_ += 1.0;
+    direction_rad_ -= turn_rad / measurements_;
+    return heading;
+  }
+
+  /// The share of straight walls that stand parallel or perpendicular to their scan's dominant direction, a mean over the
+  /// last scans; 0 before the first.
+  [[nodiscard]] double mean_share() const { return mean_share_; }
+
+  /// How far a wall of this building is off the right angle, squared: from what was seen, and from wall_sigma_rad as if it
+  /// had been seen at wall_sigma_walls of them.
+  [[nodiscard]] double wall_variance_rad2() const {
+    const double assumed_rad2 = params_.wall_sigma_rad * params_.wall_sigma_rad;
+    const double sum_rad2 = params_.wall_sigma_walls * assumed_rad2 + walls_ * std::max(0.0, wall_scatter_rad2_);
+    return sum_rad2 / (params_.wall_sigma_walls + walls_);
+  }
+
+ private:
+  CompassParams params_;
+  std::vector<LineSegment> segments_;  // scratch
+  double scans_ = 0.0;
+  double mean_share_ = 0.0;
+  double walls_ = 0.0;  // seen so far, each as often as it was seen
+  double wall_scatter_rad2_ = 0.0;
+  double measurements_ = 0.0;
+  double direction_rad_ = 0.0;  // in the map's frame, the mean over the measurements
+};
+
+}  // namespace incognita
