@@ -37,6 +37,7 @@ TEST_CASE("The likelihood is that of the distance to the nearest surface that fa
   Random random(1);
   for (const double sigma_m : {0.1, 0.06}) {
     const SurfaceMap<2> surfaces = random_surfaces(random);
+    const double half_length_m = 0.5 * surfaces.params().cell_m;
     const Lattice<2> lattice(0.05, {-1.03, -1.21});
     LikelihoodGrid<2> grid;
     grid.rebuild(surfaces, lattice, 41, 53, sigma_m);
@@ -54,7 +55,7 @@ TEST_CASE("The likelihood is that of the distance to the nearest surface that fa
             Eigen::Vector2d offset = center - surface.mean_m;
             if (surface.planar) {
               const Eigen::Vector2d along(surface.normal.y(), -surface.normal.x());
-              offset -= std::clamp(along.dot(offset), -0.1, 0.1) * along;
+              offset -= std::clamp(along.dot(offset), -half_length_m, half_length_m) * along;
             }
             nearest_m = std::min(nearest_m, offset.norm());
           });

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +19,19 @@ Eigen::Matrix3d twist_jacobian(const Pose2& pose) {
     const Pose2 moved = twist * pose;
     return Eigen::Vector3d(moved.x_m, moved.y_m, moved.yaw_rad);
   });
+}
+
+/// Makes `piece` the reference.
+void refer_to(MapDrift& drift, int piece, const Eigen::Vector2d& position_m = {0.0, 0.0}) {
+  drift.begin_matches(position_m);
+  drift.add_match(piece);
+  (void)drift.choose_reference();
+}
+
+/// Where a piece was moved to, from how far points of it are shifted.
+Eigen::Vector3d twist_of(const MapDrift& drift, int piece) {
+  const Eigen::Vector2d origin = drift.shift_m(piece, {0.0, 0.0});
+  return {origin.x(), origin.y(), drift.shift_m(piece, {1.0, 0.0}).y() - origin.y()};
 }
 
 double smallest_eigenvalue(const Eigen::Matrix3d& matrix) {
@@ -118,7 +132,7 @@ TEST_CASE("A newer piece is uncertain beyond the reference by the difference of 
     (void)drift.choose_reference();
   }
   const Eigen::Vector3d jacobian(0.6, 0.8, -1.7);
-  const double link_m2 = 0.1 * jacobian.dot(covariance * jacobian);
+  const double link_m2 = params.inherited_share * jacobian.dot(covariance * jacobian);
   REQUIRE(drift.variance_beyond_reference_m2(2, jacobian) == Approx(link_m2));
   REQUIRE(drift.variance_beyond_reference_m2(1, jacobian) == Approx(0.0).margin(1e-15));
   REQUIRE(drift.variance_beyond_reference_m2(0, jacobian) == 0.0);
@@ -130,12 +144,151 @@ TEST_CASE("A measured heading reduces the turn of the reference", "[estimation]"
   params.inherited_share = 1.0;
   MapDrift drift(params);
   const Eigen::Matrix3d covariance = room::random_covariance(random, 0.1);
-  drift.begin_matches({0.0, 0.0});
-  drift.add_match(drift.piece_of_scan(covariance, {0.0, 0.0}));
-  (void)drift.choose_reference();
-  drift.correct_turn(0.01);
+  refer_to(drift, drift.piece_of_scan(covariance, {0.0, 0.0}));
+  const Eigen::Vector3d twist = drift.correct_turn(0.02, 0.01);
   REQUIRE(1.0 / drift.covariance()(2, 2) == Approx(1.0 / covariance(2, 2) + 100.0));
   REQUIRE(smallest_eigenvalue(drift.covariance()) > 0.0);
+  const Eigen::Vector3d gain = covariance.col(2) / (covariance(2, 2) + 0.01);
+  REQUIRE((twist - 0.02 * gain).norm() < 1e-12);
+}
+
+TEST_CASE("A measured turn moves a chain of pieces as a joint Kalman update does", "[estimation]") {
+  Random random(7);
+  constexpr int size = 6;
+  for (int draw = 0; draw < 200; ++draw) {
+    MapDrift::Params params;
+    params.inherited_share = 1.0;
+    params.scans_per_piece = 1;
+    MapDrift drift(params);
+    Eigen::Matrix<double, 3 * size, 3 * size> prior;
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (int piece = 0; piece < size; ++piece) {
+      const Eigen::Vector2d position(random.normal(0.0, 5.0), random.normal(0.0, 5.0));
+      const Eigen::Matrix3d step = room::random_covariance(random, 0.1);
+      refer_to(drift, drift.piece_of_scan(step, position));
+      const Eigen::Matrix3d jacobian = twist_jacobian({position.x(), position.y(), 0.0}).inverse();
+      sum += jacobian * step * jacobian.transpose();
+      // What happened up to the older one of two pieces is common to both.
+      for (int newer = piece; newer < size; ++newer) {
+        prior.block<3, 3>(3 * piece, 3 * newer) = sum;
+        prior.block<3, 3>(3 * newer, 3 * piece) = sum;
+      }
+    }
+    const int reference = draw % size;
+    refer_to(drift, reference);
+
+    const double turn_rad = random.normal(0.0, 0.1);
+    const double variance_rad2 = std::pow(random.uniform(0.001, 0.3), 2);
+    const Eigen::Matrix<double, 3 * size, 1> to_turn = prior.col(3 * reference + 2);
+    const double innovation_rad2 = prior(3 * reference + 2, 3 * reference + 2) + variance_rad2;
+    const Eigen::Matrix<double, 3 * size, 1> moved = to_turn * (turn_rad / innovation_rad2);
+    const Eigen::Matrix<double, 3 * size, 3 * size> posterior = prior - to_turn * to_turn.transpose() / innovation_rad2;
+
+    const Eigen::Vector3d twist = drift.correct_turn(turn_rad, variance_rad2);
+    REQUIRE((twist - moved.segment<3>(3 * reference)).norm() < 1e-6 * twist.norm());
+    const Eigen::Matrix3d of_reference = drift.covariance();
+    REQUIRE((of_reference - posterior.block<3, 3>(3 * reference, 3 * reference)).norm() < 1e-6 * of_reference.norm());
+    for (int piece = 0; piece < size; ++piece) {
+      CAPTURE(draw, reference, piece);
+      const Eigen::Vector3d expected = moved.segment<3>(3 * piece);
+      if (piece >= reference) REQUIRE((expected - twist).norm() < 1e-6 * twist.norm());
+      for (int n = 0; n < 5; ++n) {
+        const Eigen::Vector2d at(random.normal(0.0, 10.0), random.normal(0.0, 10.0));
+        const Eigen::Vector2d shift(expected[0] - expected[2] * at.y(), expected[1] + expected[2] * at.x());
+        REQUIRE((drift.shift_m(piece, at) - shift).norm() < 1e-6 * (shift.norm() + expected.norm()));
+      }
+      const double turn_rad2 = posterior(3 * piece + 2, 3 * piece + 2);
+      const double beyond_rad2 = std::max(0.0, turn_rad2 - of_reference(2, 2));
+      REQUIRE(drift.variance_beyond_reference_m2(piece, {0.0, 0.0, 1.0}) ==
+              Approx(beyond_rad2).epsilon(1e-6).margin(1e-12));
+      MapDrift seen = drift;
+      refer_to(seen, piece);
+      REQUIRE(seen.covariance()(2, 2) == Approx(turn_rad2).epsilon(1e-6));
+      // Of newer pieces only the turn is that of the joint update.
+      if (piece > reference) continue;
+      REQUIRE((seen.covariance() - posterior.block<3, 3>(3 * piece, 3 * piece)).norm() < 1e-6 * seen.covariance().norm());
+    }
+  }
+}
+
+TEST_CASE("Pieces that are turned again move further", "[estimation]") {
+  Random random(8);
+  MapDrift::Params params;
+  params.scans_per_piece = 1;
+  MapDrift drift(params);
+  for (int link = 0; link < 3; ++link) {
+    refer_to(drift, drift.piece_of_scan(room::random_covariance(random, 0.1), {1.0, 2.0}));
+  }
+  refer_to(drift, 0);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const double turn_rad : {0.01, -0.03, 0.005}) {
+    sum += drift.correct_turn(turn_rad, 1e-4);
+    for (const int piece : {0, 1, 2}) REQUIRE((twist_of(drift, piece) - sum).norm() < 1e-12);
+  }
+  // A piece is born where its surfaces were seen.
+  const int born = drift.piece_of_scan(room::random_covariance(random, 0.1), {1.0, 2.0});
+  REQUIRE(twist_of(drift, born).norm() == 0.0);
+}
+
+TEST_CASE("Drifts stay covariances through thousands of pieces, references and turns", "[estimation]") {
+  Random random(9);
+  for (int draw = 0; draw < 10; ++draw) {
+    MapDrift::Params params;
+    params.scans_per_piece = 1;
+    params.inherited_share = draw % 2 == 0 ? 1.0 : 0.15;
+    MapDrift drift(params);
+    int piece = -1;
+    for (int step = 0; step < 2000; ++step) {
+      const Eigen::Vector2d position(random.normal(0.0, 20.0), random.normal(0.0, 20.0));
+      const double choice = random.uniform();
+      if (piece < 0 || choice < 0.2) {
+        piece = drift.piece_of_scan(room::random_covariance(random, 0.03), position);
+      } else if (choice < 0.6) {
+        drift.begin_matches(position);
+        for (int beam = 0; beam < 10; ++beam) drift.add_match(static_cast<int>(random.index(drift.size())));
+        const Eigen::Matrix3d added = drift.choose_reference();
+        REQUIRE(smallest_eigenvalue(added) >= -1e-12 * (1.0 + added.trace()));
+      } else {
+        const double before_rad2 = drift.covariance()(2, 2);
+        const Eigen::Vector3d twist =
+            drift.correct_turn(random.normal(0.0, 0.03), std::pow(10.0, random.uniform(-8.0, 0.0)));
+        REQUIRE(twist.allFinite());
+        REQUIRE(drift.covariance()(2, 2) <= before_rad2);
+      }
+      REQUIRE(smallest_eigenvalue(drift.covariance()) >= -1e-12 * (1.0 + drift.covariance().trace()));
+      if (step % 200 != 199) continue;
+      for (int other = 0; other <= piece; ++other) {
+        MapDrift seen = drift;
+        refer_to(seen, other);
+        REQUIRE(seen.covariance().allFinite());
+        REQUIRE(smallest_eigenvalue(seen.covariance()) >= -1e-12 * (1.0 + seen.covariance().trace()));
+        REQUIRE(twist_of(drift, other).allFinite());
+      }
+    }
+  }
+}
+
+TEST_CASE("Without drift a measured turn moves nothing", "[estimation]") {
+  Random random(10);
+  MapDrift::Params params;
+  params.inherited_share = 0.0;
+  params.scans_per_piece = 1;
+  MapDrift certain(params);
+  REQUIRE(certain.correct_turn(0.1, 1e-4) == Eigen::Vector3d::Zero());
+  for (int link = 0; link < 3; ++link) {
+    refer_to(certain, certain.piece_of_scan(room::random_covariance(random, 0.1), {3.0, 1.0}));
+    REQUIRE(certain.correct_turn(0.1, 1e-4) == Eigen::Vector3d::Zero());
+  }
+  for (const int piece : {0, 1, 2}) REQUIRE(certain.shift_m(piece, {5.0, -7.0}) == Eigen::Vector2d::Zero());
+  REQUIRE(certain.covariance() == Eigen::Matrix3d::Zero());
+
+  // A reference without drift says nothing of others that have drifted from it.
+  MapDrift drift;
+  const Eigen::Matrix3d covariance = room::random_covariance(random, 0.1);
+  REQUIRE(drift.piece_of_scan(covariance, {0.0, 0.0}) == 0);
+  REQUIRE(drift.correct_turn(0.1, 1e-4) == Eigen::Vector3d::Zero());
+  REQUIRE(drift.shift_m(0, {5.0, -7.0}) == Eigen::Vector2d::Zero());
+  REQUIRE(drift.variance_beyond_reference_m2(0, {0.0, 0.0, 1.0}) == Approx(MapDrift::Params{}.inherited_share * covariance(2, 2)));
 }
 
 TEST_CASE("The drift model refuses parameters outside of their bounds", "[estimation]") {

@@ -12,6 +12,15 @@ using namespace incognita;
 
 namespace {
 
+/// Cells of 0.2 m, for surfaces whose means the tests tell by hand.
+SurfaceMap<2>::Params coarse_params() {
+  SurfaceMap<2>::Params params;
+  params.cell_m = 0.2;
+  params.pool_radius_m = 0.3;
+  params.flatness = 0.1;
+  return params;
+}
+
 /// All surfaces are there with one probability.
 struct Certainty : CertainSurfaces {
   double probability;
@@ -117,7 +126,7 @@ TEST_CASE("The end point's Jacobian is the derivative of the end point", "[estim
 
 TEST_CASE("An end point is matched to the nearest line of its side, else to a point", "[estimation]") {
   const RegistrationParams params;
-  SurfaceMap<2> surfaces;
+  SurfaceMap<2> surfaces(coarse_params());
   for (double x_m = -0.5; x_m < 0.5; x_m += 0.01) {
     surfaces.add({x_m, 0.03}, {0.0, 1.0});   // a wall's lower face
     surfaces.add({x_m, 0.17}, {0.0, -1.0});  // and its upper one
@@ -147,7 +156,7 @@ TEST_CASE("An end point is matched to the nearest line of its side, else to a po
 }
 
 TEST_CASE("Among lines the match weighs the way along them by a quarter", "[estimation]") {
-  SurfaceMap<2>::Params short_lines;
+  SurfaceMap<2>::Params short_lines = coarse_params();
   short_lines.pool_radius_m = 0.12;
   SurfaceMap<2> surfaces(short_lines);
   for (int n = 0; n < 9; ++n) {

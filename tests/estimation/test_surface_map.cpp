@@ -14,6 +14,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// Cells and neighbourhoods wide enough for the points of these tests.
+SurfaceMap<2>::Params coarse_params() {
+  SurfaceMap<2>::Params params;
+  params.cell_m = 0.2;
+  params.pool_radius_m = 0.3;
+  params.flatness = 0.1;
+  return params;
+}
+
 Eigen::Vector2d unit(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
 template <int Dim>
@@ -89,7 +98,7 @@ TEST_CASE("The two sides of a thin wall are kept apart", "[estimation]") {
   // 5 cm thick, at 0.3 rad, within the cells of 0.2 m.
   const double angle_rad = 0.3;
   const Eigen::Vector2d left = unit(angle_rad + 0.5 * kPi);
-  SurfaceMap<2> map;
+  SurfaceMap<2> map(coarse_params());
   add_line(map, 0.025 * left, angle_rad, 1.0, -left);
   add_line(map, -0.025 * left, angle_rad, 1.0, left);
   int seen_from_left = 0;
@@ -108,7 +117,7 @@ TEST_CASE("The two sides of a thin wall are kept apart", "[estimation]") {
 }
 
 TEST_CASE("Beams that graze a wall from either end see the same side", "[estimation]") {
-  SurfaceMap<2> map;
+  SurfaceMap<2> map(coarse_params());
   // A wall along x seen from below: first along it from the left, then from the right, nearly the other way.
   add_line(map, {0.0, 0.1}, 0.0, 0.5, unit(0.2));
   const std::size_t count = map.size();
@@ -120,7 +129,7 @@ TEST_CASE("Beams that graze a wall from either end see the same side", "[estimat
 }
 
 TEST_CASE("A surface is frozen when it has its points", "[estimation]") {
-  SurfaceMap<2>::Params params;
+  SurfaceMap<2>::Params params = coarse_params();
   params.count_max = 5;
   SurfaceMap<2> map(params);
   for (int n = 0; n < 5; ++n) map.add({0.05, 0.02 * n}, unit(0.0));
@@ -138,7 +147,7 @@ TEST_CASE("A surface is frozen when it has its points", "[estimation]") {
 }
 
 TEST_CASE("A cell holds three sides, among which all beams divide", "[estimation]") {
-  SurfaceMap<2> map;
+  SurfaceMap<2> map(coarse_params());
   int added = 0;
   for (const double degrees : {0.0, 120.0, 240.0, 30.0, 100.0, 150.0, 200.0, 250.0, 330.0}) {
     map.add({0.1, 0.1}, unit(degrees * kPi / 180.0));
@@ -151,17 +160,17 @@ TEST_CASE("A cell holds three sides, among which all beams divide", "[estimation
 
 TEST_CASE("What is no line is not taken for one", "[estimation]") {
   Random random(3);
-  SurfaceMap<2> blob;
+  SurfaceMap<2> blob(coarse_params());
   for (int n = 0; n < 40; ++n) blob.add({random.uniform(0.0, 0.2), random.uniform(0.0, 0.2)}, unit(0.3));
   blob.refresh_normals();
   REQUIRE_FALSE(surfaces_near<2>(blob, {0.1, 0.1}).at(0).planar);
 
-  SurfaceMap<2> point;
+  SurfaceMap<2> point(coarse_params());
   for (int n = 0; n < 40; ++n) point.add({0.1 + random.normal(0.0, 0.005), 0.1}, unit(0.3));
   point.refresh_normals();
   REQUIRE_FALSE(surfaces_near<2>(point, {0.1, 0.1}).at(0).planar);
 
-  SurfaceMap<2> few;
+  SurfaceMap<2> few(coarse_params());
   for (const double y_m : {0.02, 0.08, 0.15}) few.add({0.1, y_m}, unit(0.3));
   few.refresh_normals();
   REQUIRE_FALSE(surfaces_near<2>(few, {0.1, 0.1}).at(0).planar);
@@ -171,7 +180,7 @@ TEST_CASE("What is no line is not taken for one", "[estimation]") {
 }
 
 TEST_CASE("Surfaces are found in the cell of a point and its neighbours, and nowhere else", "[estimation]") {
-  SurfaceMap<2> map;
+  SurfaceMap<2> map(coarse_params());
   map.add({-1.05, 2.13}, unit(0.0));
   REQUIRE(surfaces_near<2>(map, {-1.05, 2.13}).size() == 1);
   REQUIRE(surfaces_near<2>(map, {-1.05 + 0.2, 2.13 - 0.2}).size() == 1);
