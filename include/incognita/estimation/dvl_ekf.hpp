@@ -3,13 +3,16 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "incognita/estimation/compass.hpp"
+#include "incognita/estimation/correlative_search.hpp"
 #include "incognita/estimation/estimator.hpp"
 #include "incognita/estimation/map_drift.hpp"
 #include "incognita/estimation/registration.hpp"
+#include "incognita/estimation/scan_consistency.hpp"
 #include "incognita/estimation/surface_map.hpp"
 #include "incognita/estimation/yaw_update.hpp"
 #include "incognita/grid/traversal.hpp"
@@ -45,6 +48,14 @@ class DvlEkf {
     /// Whether headings are also measured by the building's dominant directions, where it has them.
     bool uses_compass = true;
     CompassParams compass;
+    /// Where odometry may be far off, search for the best place in search_window before each registration; else only when
+    /// registration's result contradicts the map.
+    bool searches_each_scan = false;
+    SearchWindow search_window{0.3, 0.3, 0.21};
+    CorrelativeSearchParams search;
+    /// What tells a wrong pose from a new place.
+    ConsistencyParams consistency;
+    int lost_scans = 10;  ///< lost after so many scans in a row that contradict the map, >= 1
     RayUpdateParams ray;  ///< for Form::ray
     /// For imagined scans: divided by the number of beams, so that little is learned where little is seen.
     RayUpdateParams imagined{{}, 1.2, Tempering::beams, MixtureVariance::squared_weights};
@@ -60,7 +71,8 @@ class DvlEkf {
         driven_(params.start),
         surfaces_(params.surfaces),
         drift_(params.drift),
-        compass_(params.compass) {
+        compass_(params.compass),
+        search_(params.search) {
     require_belief("DvlEkf", params.start);
     require_positive("DvlEkf", "noise.position_m_per_sqrt_s", params.noise.position_m_per_sqrt_s);
     require_positive("DvlEkf", "noise.yaw_rad_per_sqrt_s", params.noise.yaw_rad_per_sqrt_s);
@@ -69,7 +81,10 @@ class DvlEkf {
     require_non_negative("DvlEkf", "start_hold_turn_rad", params.start_hold_turn_rad);
     require(params.decoupled_probability_min >= 0.0 && params.decoupled_probability_min < 1.0, "DvlEkf",
             "decoupled_probability_min", params.decoupled_probability_min, "in [0, 1)");
+    require(params.lost_scans >= 1, "DvlEkf", "lost_scans", params.lost_scans, ">= 1");
     params.registration.validate();
+    params.search_window.validate();
+    params.consistency.validate();
     params.ray.validate();
     params.imagined.validate();
     if (!params.coupled) decouple(params_);
@@ -105,7 +120,7 @@ class DvlEkf {
       scans_held_ = params_.start_scans_held;
       believe(driven_);
     }
-    if (params_.uses_compass) correct_by_compass(scan);
+    if (params_.uses_compass && doubtful_scans_ == 0) correct_by_compass(scan);
     return params_.form == Form::registration ? correct_by_registration(scan, map) : correct_by_rays(scan, map);
   }
 
@@ -222,11 +237,81 @@ class DvlEkf {
   template <class MapType>
   CorrectionReport correct_by_registration(const Scan<2>& scan, const MapType& map) {
     const SurfacesInMap<MapType> surface_belief{*this, map};
+    const PoseBelief predicted{belief_.pose, in_map_};
+    const Eigen::Matrix3d reference = drift_.covariance();
+    if (params_.searches_each_scan) {
+      const auto& candidates = search_.find(scan, surfaces_, predicted, params_.search_window);
+      if (!candidates.empty()) believe({candidates.front().pose, in_map_});
+    }
     choose_reference(scan, surface_belief);
-    const Registration registration =
+    Registration registration =
         register_scan({belief_.pose, in_map_}, scan, surfaces_, params_.registration, surface_belief);
+    ScanConsistency consistency = scan_consistency(map, scan, registration.belief.pose, params_.consistency);
+    CorrectionReport report;
+    report.trusted = consistency.holds(params_.consistency);
+    if (!report.trusted || is_unusual(consistency)) {
+      if (!report.trusted) ++doubtful_scans_;
+      scans_since_search_ = 0;
+      report.relocated = relocate(predicted.pose, scan, surface_belief, map, registration, consistency);
+      report.trusted = report.trusted || report.relocated;
+    }
+    ++scans_since_search_;
+    report.consistent_share = consistency.share();
+    if (!report.trusted) {
+      drift_.restore(reference);
+      believe(predicted);
+      report.lost = doubtful_scans_ >= params_.lost_scans;
+      return report;
+    }
+    doubtful_scans_ = 0;
+    if (consistency.judged() >= params_.consistency.beams_min) {
+      mean_share_ += (consistency.share() - mean_share_) / share_memory_scans;
+    }
+    report.associations = registration.associations;
+    report.residual_rms_m = registration.residual_rms_m;
     believe(registration.belief);
-    return {registration.associations, registration.residual_rms_m};
+    return report;
+  }
+
+  /// Whether a scan that the map does not contradict still fits it worse than scans usually do: a corridor looks much the
+  /// same a metre further.
+  [[nodiscard]] bool is_unusual(const ScanConsistency& consistency) const {
+    return scans_since_search_ >= unusual_search_every && consistency.judged() >= params_.consistency.beams_min &&
+           consistency.share() < mean_share_ - relocation_share_margin;
+  }
+
+  /// Looks for a place that scan and map agree on better: heading as predicted at first, all around now and then. Takes none
+  /// when two are as good as each other.
+  template <class MapType>
+  bool relocate(const Pose2& predicted, const Scan<2>& scan, const SurfacesInMap<MapType>& surface_belief,
+                const MapType& map, Registration& registration, ScanConsistency& consistency) {
+    const bool is_contradicted = doubtful_scans_ > 0;
+    const bool is_wide = is_contradicted && doubtful_scans_ % wide_search_every == 0;
+    const double reach_m = is_contradicted ? carried_m : slipped_m;
+    const SearchWindow window{reach_m, reach_m, is_wide ? std::numbers::pi : relocation_rad};
+    RegistrationParams params = params_.registration;
+    params.iterations = relocation_iterations;
+    const double share_min =
+        std::max(is_contradicted ? relocation_share_min : mean_share_, consistency.share() + relocation_share_margin);
+    bool is_found = false;
+    bool is_ambiguous = false;
+    for (const SearchCandidate& candidate : search_.find(scan, surfaces_, predicted, window)) {
+      const PoseBelief start{candidate.pose, diagonal_covariance(0.01, 0.01, 0.0025)};
+      const Registration found = register_scan(start, scan, surfaces_, params, surface_belief);
+      const ScanConsistency fit = scan_consistency(map, scan, found.belief.pose, params_.consistency);
+      if (fit.agreeing < params_.consistency.beams_min || fit.share() < share_min) continue;
+      const bool is_elsewhere =
+          distance(found.belief.pose.position(), registration.belief.pose.position()) > params_.search.separation_m;
+      if (is_found && is_elsewhere && std::abs(fit.share() - consistency.share()) < relocation_share_margin) {
+        is_ambiguous = true;
+      }
+      if (is_found && fit.share() <= consistency.share()) continue;
+      if (is_found && fit.share() >= consistency.share() + relocation_share_margin) is_ambiguous = false;
+      is_found = true;
+      registration = found;
+      consistency = fit;
+    }
+    return is_found && !is_ambiguous;
   }
 
   template <class MapType>
@@ -261,6 +346,15 @@ class DvlEkf {
   }
 
   static constexpr std::size_t reference_stride = 4;  ///< beams
+  static constexpr int wide_search_every = 5;         ///< doubtful scans
+  static constexpr int unusual_search_every = 10;     ///< scans
+  static constexpr double share_memory_scans = 50;
+  static constexpr double carried_m = 3.5;  ///< how far a robot may have been carried off
+  static constexpr double slipped_m = 1.2;  ///< how far its wheels may have slipped
+  static constexpr double relocation_rad = 0.6;
+  static constexpr int relocation_iterations = 8;
+  static constexpr double relocation_share_min = 0.8;      ///< as good as a usual scan
+  static constexpr double relocation_share_margin = 0.12;  ///< two places this near to each other are equally good
   static constexpr double ray_search_m = 1.0;  ///< how far behind a reading its cell may lie
 
   Params params_;
@@ -270,6 +364,10 @@ class DvlEkf {
   SurfaceMap<2> surfaces_;
   MapDrift drift_;
   Compass compass_;
+  CorrelativeSearch<2> search_;
+  int doubtful_scans_ = 0;  ///< in a row
+  int scans_since_search_ = 0;
+  double mean_share_ = 0.8;  ///< of the beams that agree with the map, over trusted scans
   int scans_held_ = 0;
 };
 

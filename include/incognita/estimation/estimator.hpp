@@ -16,11 +16,18 @@ namespace incognita {
 struct CorrectionReport {
   std::size_t associations = 0;  ///< N_h: beams that had something to be compared with
   double residual_rms_m = 0.0;
+  double consistent_share = 1.0;  ///< of the beams that the map can judge, see ScanConsistency
+  /// False when the scan cannot have been taken where the robot believes to be: neither the map nor the estimator may learn
+  /// from it.
+  bool trusted = true;
+  bool relocated = false;  ///< the robot was found again somewhere else
+  bool lost = false;       ///< too many scans in a row were not to be trusted
 };
 
 /// An estimator holds a PoseBelief in the map's frame. For each odometry increment: predict. For each scan, in this
 /// order (Algorithm 1 of Seo et al.: the filter reads the map before the map takes the scan): correct, then the map's
-/// update at the corrected belief, then learn, by which the estimator keeps what it needs of the scan for itself.
+/// update at the corrected belief, then learn, by which the estimator keeps what it needs of the scan for itself; both of
+/// these only when the correction's report is trusted.
 /// imagine_motion and imagine_scan are the same steps for poses that were not driven to: they change nothing, and may
 /// be called from many threads at once.
 ///

@@ -52,6 +52,9 @@ class MapDrift {
   /// The drift of the reference: a covariance of twists.
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return reference_; }
 
+  /// Takes an earlier reference's covariance() back.
+  void restore(const Eigen::Matrix3d& reference) { reference_ = reference; }
+
   /// What the reference's drift makes of a pose registered to it, at `position_m`: to be added to its own covariance.
   [[nodiscard]] Eigen::Matrix3d covariance_at(const Eigen::Vector2d& position_m) const {
     return carried_covariance(reference_, position_m);

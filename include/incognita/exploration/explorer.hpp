@@ -52,6 +52,7 @@ struct ExplorerParams {
   double retreat_distance_m = 0.1;         ///< how far, before it decides anew
   double sought_known_share = 0.7;         ///< decide anew when this share of what a goal should show is known
   double position_sigma_max_m = 1.0;       ///< lost beyond
+  double lost_max_s = 10.0;                ///< lost when the filter has been lost for longer; the robot stands meanwhile
   double duration_max_s = std::numeric_limits<double>::infinity();  ///< out of time beyond
   int threads = 0;                         ///< for the evaluation of candidates; 0: OpenMP's own number
 
@@ -75,6 +76,7 @@ struct ExplorerParams {
     require(sought_known_share > 0.0 && sought_known_share <= 1.0, "ExplorerParams", "sought_known_share",
             sought_known_share, "in (0, 1]");
     require_positive("ExplorerParams", "position_sigma_max_m", position_sigma_max_m);
+    require_positive("ExplorerParams", "lost_max_s", lost_max_s);
     require(duration_max_s > 0.0, "ExplorerParams", "duration_max_s", duration_max_s, "> 0");
     require(threads >= 0, "ExplorerParams", "threads", threads, ">= 0");
   }
@@ -119,10 +121,14 @@ class Explorer {
     time_s_ += duration_s;
   }
 
-  /// A scan was taken: corrects the pose by the map, then the map by the scan. See Map::update for bad scans; when it
+  /// A scan was taken: corrects the pose by the map, then the map by the scan; a scan that the filter does not trust is
+  /// ignored (see correction()). See Map::update for bad scans; when it
   /// throws (a pose beyond the lattice's reach), the pose has been corrected and the map is as it was.
   ScanReport observe(const Scan<2>& scan) {
-    filter_.correct(scan, map_);
+    correction_ = filter_.correct(scan, map_);
+    if (!correction_.lost) found_s_ = time_s_;
+    if (correction_.relocated) must_decide_ = true;
+    if (!correction_.trusted) return {0, scan.size()};
     const ScanReport report = map_.update(scan, filter_.belief().pose, filter_.belief().covariance);
     filter_.learn(scan);
     reached_ = enclosing_box(reached_, cells_in_reach(map_.lattice(), scan, filter_.belief().pose, map_.hit_push_m()));
@@ -134,6 +140,8 @@ class Explorer {
   bool decide() {
     if (decision_.stopped) return false;
     if (position_sigma_m(filter_.belief().covariance) > params_.position_sigma_max_m) return stop(StopReason::lost);
+    if (time_s_ - found_s_ > params_.lost_max_s) return stop(StopReason::lost);
+    if (!correction_.trusted) return false;
     if (time_s_ >= params_.duration_max_s) return stop(StopReason::out_of_time);
     if (trail_.empty() || !filter_.is_ready()) return false;
     if (decision_.chosen() != nullptr && !goal_is_done()) return false;
@@ -142,7 +150,7 @@ class Explorer {
 
   /// The speeds that follow the chosen path, slowed down before what `scan`, the latest, shows. Zero without a goal.
   [[nodiscard]] Twist2 command(const Scan<2>& scan) {
-    if (decision_.chosen() == nullptr) return {};
+    if (decision_.chosen() == nullptr || correction_.lost) return {};
     const Eigen::Vector2d position = filter_.belief().pose.position();
     if (retreats_from_) {
       if (distance(position, *retreats_from_) < params_.retreat_distance_m) {
@@ -179,6 +187,7 @@ class Explorer {
   [[nodiscard]] const MapType& map() const { return map_; }
   [[nodiscard]] const Filter& filter() const { return filter_; }
   [[nodiscard]] const PoseBelief& belief() const { return filter_.belief(); }
+  [[nodiscard]] const CorrectionReport& correction() const { return correction_; }  ///< of the last scan
   [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }
   [[nodiscard]] const ExplorerParams& params() const { return params_; }
   [[nodiscard]] double time_s() const { return time_s_; }
@@ -313,6 +322,7 @@ class Explorer {
   EntropyTable entropy_;
   Filter filter_;
   SetAsidePlaces set_aside_;
+  CorrectionReport correction_;
   Decision decision_;
   PathFollower follower_;
   IndexBox<2> reached_;  // the cells that scans have reached, those of the map given at the start included
@@ -323,6 +333,7 @@ class Explorer {
   std::optional<Eigen::Vector2d> retreated_on_way_to_;  // the frontier that the last retreat was on the way to
   bool must_decide_ = false;
   double time_s_ = 0.0;
+  double found_s_ = 0.0;      // when the filter was last not lost
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive
 };
 
