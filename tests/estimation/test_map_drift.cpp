@@ -1,7 +1,6 @@
-#include <catch2/catch.hpp>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
@@ -65,7 +64,8 @@ TEST_CASE("Motion does not change the drift that a pose has from its map", "[est
   REQUIRE((belief.covariance - expected).norm() < 1e-9 * expected.norm());
 }
 
-TEST_CASE("Pieces take over the drift of the reference and a share of the pose's covariance", "[estimation]") {
+TEST_CASE("Pieces take over the drift of the reference and a share of the pose's covariance",
+          "[estimation]") {
   Random random(3);
   MapDrift::Params params;
   params.inherited_share = 0.25;
@@ -87,7 +87,8 @@ TEST_CASE("Pieces take over the drift of the reference and a share of the pose's
   REQUIRE(drift.size() == 10);
 }
 
-TEST_CASE("The reference is the oldest piece in sight, and going back to it keeps the uncertainty", "[estimation]") {
+TEST_CASE("The reference is the oldest piece in sight, and going back to it keeps the uncertainty",
+          "[estimation]") {
   Random random(4);
   MapDrift::Params params;
   params.scans_per_piece = 1;
@@ -118,7 +119,8 @@ TEST_CASE("The reference is the oldest piece in sight, and going back to it keep
   REQUIRE(drift.covariance() == kept);
 }
 
-TEST_CASE("A newer piece is uncertain beyond the reference by the difference of their drifts", "[estimation]") {
+TEST_CASE("A newer piece is uncertain beyond the reference by the difference of their drifts",
+          "[estimation]") {
   Random random(5);
   MapDrift::Params params;
   params.scans_per_piece = 1;
@@ -182,12 +184,14 @@ TEST_CASE("A measured turn moves a chain of pieces as a joint Kalman update does
     const Eigen::Matrix<double, 3 * size, 1> to_turn = prior.col(3 * reference + 2);
     const double innovation_rad2 = prior(3 * reference + 2, 3 * reference + 2) + variance_rad2;
     const Eigen::Matrix<double, 3 * size, 1> moved = to_turn * (turn_rad / innovation_rad2);
-    const Eigen::Matrix<double, 3 * size, 3 * size> posterior = prior - to_turn * to_turn.transpose() / innovation_rad2;
+    const Eigen::Matrix<double, 3 * size, 3 * size> posterior =
+        prior - to_turn * to_turn.transpose() / innovation_rad2;
 
     const Eigen::Vector3d twist = drift.correct_turn(turn_rad, variance_rad2);
     REQUIRE((twist - moved.segment<3>(3 * reference)).norm() < 1e-6 * twist.norm());
     const Eigen::Matrix3d of_reference = drift.covariance();
-    REQUIRE((of_reference - posterior.block<3, 3>(3 * reference, 3 * reference)).norm() < 1e-6 * of_reference.norm());
+    REQUIRE((of_reference - posterior.block<3, 3>(3 * reference, 3 * reference)).norm() <
+            1e-6 * of_reference.norm());
     for (int piece = 0; piece < size; ++piece) {
       CAPTURE(draw, reference, piece);
       const Eigen::Vector3d expected = moved.segment<3>(3 * piece);
@@ -206,7 +210,8 @@ TEST_CASE("A measured turn moves a chain of pieces as a joint Kalman update does
       REQUIRE(seen.covariance()(2, 2) == Approx(turn_rad2).epsilon(1e-6));
       // Of newer pieces only the turn is that of the joint update.
       if (piece > reference) continue;
-      REQUIRE((seen.covariance() - posterior.block<3, 3>(3 * piece, 3 * piece)).norm() < 1e-6 * seen.covariance().norm());
+      REQUIRE((seen.covariance() - posterior.block<3, 3>(3 * piece, 3 * piece)).norm() <
+              1e-6 * seen.covariance().norm());
     }
   }
 }
@@ -288,7 +293,8 @@ TEST_CASE("Without drift a measured turn moves nothing", "[estimation]") {
   REQUIRE(drift.piece_of_scan(covariance, {0.0, 0.0}) == 0);
   REQUIRE(drift.correct_turn(0.1, 1e-4) == Eigen::Vector3d::Zero());
   REQUIRE(drift.shift_m(0, {5.0, -7.0}) == Eigen::Vector2d::Zero());
-  REQUIRE(drift.variance_beyond_reference_m2(0, {0.0, 0.0, 1.0}) == Approx(MapDrift::Params{}.inherited_share * covariance(2, 2)));
+  REQUIRE(drift.variance_beyond_reference_m2(0, {0.0, 0.0, 1.0}) ==
+          Approx(MapDrift::Params{}.inherited_share * covariance(2, 2)));
 }
 
 TEST_CASE("The drift model refuses parameters outside of their bounds", "[estimation]") {

@@ -29,14 +29,17 @@ double range_m(double beam_rad) {
   return nearest_m;
 }
 
-/// The room, seen by evenly spaced beams over fov_rad and, with meets_corners, by beams that meet its corners exactly.
-Scan<2> room_scan(std::size_t count, double first_rad, double fov_rad = 2.0 * kPi, bool meets_corners = false) {
+/// The room, seen by evenly spaced beams over fov_rad and, with meets_corners, by beams that meet its corners
+/// exactly.
+Scan<2> room_scan(std::size_t count, double first_rad, double fov_rad = 2.0 * kPi,
+                  bool meets_corners = false) {
   std::vector<double> angles_rad;
   for (std::size_t beam = 0; beam < count; ++beam) {
     angles_rad.push_back(first_rad + fov_rad * static_cast<double>(beam) / static_cast<double>(count));
   }
   for (int side = 0; side < 4 && meets_corners; ++side) {
-    const double corner_rad = std::atan2(kWalls_m[(side + 1) % 4], kWalls_m[side]) + kTurn_rad + 0.5 * kPi * side;
+    const double corner_rad =
+        std::atan2(kWalls_m[(side + 1) % 4], kWalls_m[side]) + kTurn_rad + 0.5 * kPi * side;
     const double beam_rad = first_rad + std::fmod(corner_rad - first_rad + 2.0 * kPi, 2.0 * kPi);
     if (beam_rad < angles_rad[count - 1]) angles_rad.push_back(beam_rad);
   }
@@ -65,13 +68,16 @@ std::vector<LineSegment> segments_of(const Scan<2>& scan, const LineSegmentParam
 }
 
 /// How far a line is off the walls of the room.
-double off_rad(const LineSegment& segment) { return std::remainder(segment.angle_rad - kTurn_rad, 0.5 * kPi); }
+double off_rad(const LineSegment& segment) {
+  return std::remainder(segment.angle_rad - kTurn_rad, 0.5 * kPi);
+}
 
 bool same(const std::vector<LineSegment>& a, const std::vector<LineSegment>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LineSegment& one, const LineSegment& other) {
-    return one.angle_rad == other.angle_rad && one.variance_rad2 == other.variance_rad2 &&
-           one.length_m == other.length_m;
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const LineSegment& one, const LineSegment& other) {
+                      return one.angle_rad == other.angle_rad && one.variance_rad2 == other.variance_rad2 &&
+                             one.length_m == other.length_m;
+                    });
 }
 
 }  // namespace
@@ -93,9 +99,9 @@ TEST_CASE("The walls of a room are exact between corners that beams meet", "[sen
 }
 
 TEST_CASE("The walls of a room are found all around, corners met or not", "[sensor]") {
-  // Both walls at a corner share the end point where they are split, which is on one of them only. The first chord, between
-  // neighbours, is parallel to the wall opposite, and may split that anywhere: there a corner may be hidden, as far as it
-  // deviates from a straight line by no more than 4 cm.
+  // Both walls at a corner share the end point where they are split, which is on one of them only. The first
+  // chord, between neighbours, is parallel to the wall opposite, and may split that anywhere: there a corner
+  // may be hidden, as far as it deviates from a straight line by no more than 4 cm.
   for (const std::size_t count : {360, 720, 1440}) {
     double squared = 0.0;
     int number = 0;
@@ -244,10 +250,11 @@ TEST_CASE("Scans without end points have no segments, and scratch is cleared", "
 TEST_CASE("What counts as straight is refused outside of its bounds", "[sensor]") {
   using Params = LineSegmentParams;
   REQUIRE_NOTHROW(Params{}.validate());
-  const std::vector<std::pair<double Params::*, std::string>> fields{{&Params::gap_max_m, "gap_max_m"},
-                                                                     {&Params::deviation_max_m, "deviation_max_m"},
-                                                                     {&Params::length_min_m, "length_min_m"},
-                                                                     {&Params::noise_m, "noise_m"}};
+  const std::vector<std::pair<double Params::*, std::string>> fields{
+      {&Params::gap_max_m, "gap_max_m"},
+      {&Params::deviation_max_m, "deviation_max_m"},
+      {&Params::length_min_m, "length_min_m"},
+      {&Params::noise_m, "noise_m"}};
   for (const double bad :
        {0.0, -0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     for (const auto& [field, name] : fields) {
