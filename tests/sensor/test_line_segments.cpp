@@ -102,7 +102,7 @@ TEST_CASE("The walls of a room are found all around, corners met or not", "[sens
   // Both walls at a corner share the end point where they are split, which is on one of them only. The first
   // chord, between neighbours, is parallel to the wall opposite, and may split that anywhere: there a corner
   // may be hidden, as far as it deviates from a straight line by no more than 4 cm.
-  for (const std::size_t count : {360, 720, 1440}) {
+  for (const std::size_t count : {360U, 720U, 1440U}) {
     double squared = 0.0;
     int number = 0;
     for (int draw = 0; draw < 40; ++draw) {
