@@ -164,7 +164,7 @@ TEST_CASE("A line is fitted as well whatever its angle, and steep ones too", "[s
       const Eigen::Vector2d point = 0.1 * n * along + 2.0 * Eigen::Vector2d(along.y(), -along.x());
       beams.directions.push_back(point / point.norm());
       ranges_m.push_back(point.norm());
-      along_m2 += 0.01 * n * n;
+      if (std::abs(n) <= 8) along_m2 += 0.01 * n * n;  // two points at each end are left to the corners
     }
     const std::vector<LineSegment> segments = segments_of(Scan<2>(beams, ranges_m));
     CAPTURE(angle_rad);

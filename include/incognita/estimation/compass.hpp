@@ -15,7 +15,7 @@
 
 namespace incognita {
 
-/// A turn brought into (-pi/4, pi/4]: two perpendicular directions are one.
+/// A turn brought into [-pi/4, pi/4]: two perpendicular directions are one.
 [[nodiscard]] inline double wrap_quarter_turn_rad(double angle_rad) {
   return std::remainder(angle_rad, 0.5 * std::numbers::pi);
 }
@@ -57,21 +57,26 @@ struct CompassParams {
 
 /// The direction that most of the straight pieces' length is parallel or perpendicular to, refined over those that are.
 /// wall_variance_rad2 is how far a wall of this building is off, squared. None when the pieces are too short together.
-/// O(pieces).
+/// O(pieces^2), of which there are some tens.
 [[nodiscard]] inline std::optional<WallDirection> wall_direction(const std::vector<LineSegment>& segments,
                                                                  double wall_variance_rad2,
                                                                  const CompassParams& params) {
-  // Angles times four are the same for all walls of a rectangular building.
-  double x = 0.0;
-  double y = 0.0;
+  // The first guess is the piece that most length agrees with.
+  WallDirection found{};
   double length_m = 0.0;
-  for (const LineSegment& segment : segments) {
-    x += segment.length_m * std::cos(4.0 * segment.angle_rad);
-    y += segment.length_m * std::sin(4.0 * segment.angle_rad);
-    length_m += segment.length_m;
+  double most_m = 0.0;
+  for (const LineSegment& guess : segments) {
+    length_m += guess.length_m;
+    double agreeing_m = 0.0;
+    for (const LineSegment& segment : segments) {
+      const double off_rad = wrap_quarter_turn_rad(segment.angle_rad - guess.angle_rad);
+      if (std::abs(off_rad) <= params.inlier_max_rad) agreeing_m += segment.length_m;
+    }
+    if (agreeing_m <= most_m) continue;
+    most_m = agreeing_m;
+    found.angle_rad = guess.angle_rad;
   }
   if (length_m < params.length_min_m) return std::nullopt;
-  WallDirection found{0.25 * std::atan2(y, x), 0.0, 0.0, 0.0, 0, 0.0};
   for (int pass = 0; pass < 2; ++pass) {
     found = {found.angle_rad, 0.0, 0.0, 0.0, 0, 0.0};
     double turn = 0.0;

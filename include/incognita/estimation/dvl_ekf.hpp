@@ -238,7 +238,7 @@ class DvlEkf {
   CorrectionReport correct_by_registration(const Scan<2>& scan, const MapType& map) {
     const SurfacesInMap<MapType> surface_belief{*this, map};
     const PoseBelief predicted{belief_.pose, in_map_};
-    const Eigen::Matrix3d reference = drift_.covariance();
+    const MapDrift::Reference reference = drift_.reference();
     if (params_.searches_each_scan) {
       const auto& candidates = search_.find(scan, surfaces_, predicted, params_.search_window);
       if (!candidates.empty()) believe({candidates.front().pose, in_map_});

@@ -33,7 +33,7 @@ class MapDrift {
     /// The reference is the piece below which this share of the matched beams falls, by drift: the oldest in sight, but not
     /// one that a few wrong matches suggest. In [0, 1].
     double reference_quantile = 0.1;
-    int scans_per_piece = 10;  ///< >= 1; memory is 96 bytes a piece
+    int scans_per_piece = 10;  ///< >= 1; memory is 104 bytes a piece
 
     /// Throws std::invalid_argument for values outside of their bounds.
     void validate() const {
@@ -50,22 +50,30 @@ class MapDrift {
   explicit MapDrift(const Params& params) : params_(params) { params_.validate(); }
 
   /// The drift of the reference: a covariance of twists.
-  [[nodiscard]] const Eigen::Matrix3d& covariance() const { return reference_; }
+  [[nodiscard]] const Eigen::Matrix3d& covariance() const { return reference_.drift; }
 
-  /// Takes an earlier reference's covariance() back.
-  void restore(const Eigen::Matrix3d& reference) { reference_ = reference; }
+  /// What poses are registered to.
+  struct Reference {
+    Eigen::Matrix3d drift = Eigen::Matrix3d::Zero();
+    double turn_at_birth_rad2 = 0.0;
+  };
+
+  [[nodiscard]] const Reference& reference() const { return reference_; }
+
+  /// Takes an earlier reference() back.
+  void restore(const Reference& reference) { reference_ = reference; }
 
   /// What the reference's drift makes of a pose registered to it, at `position_m`: to be added to its own covariance.
   [[nodiscard]] Eigen::Matrix3d covariance_at(const Eigen::Vector2d& position_m) const {
-    return carried_covariance(reference_, position_m);
+    return carried_covariance(reference_.drift, position_m);
   }
 
   /// The piece that surfaces learned by this scan belong to. `covariance` is the pose's in the reference.
   [[nodiscard]] int piece_of_scan(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& position_m) {
     if (scans_++ % params_.scans_per_piece == 0) {
-      Eigen::Matrix3d born = reference_;
+      Eigen::Matrix3d born = reference_.drift;
       add_to(born, carried_covariance(covariance, {-position_m[0], -position_m[1]}), params_.inherited_share);
-      pieces_.push_back({born, Eigen::Vector3d(0.0, 0.0, 0.0)});
+      pieces_.push_back({born, Eigen::Vector3d(0.0, 0.0, 0.0), born(2, 2)});
     }
     return static_cast<int>(pieces_.size()) - 1;
   }
@@ -91,10 +99,11 @@ class MapDrift {
     const auto rank = static_cast<std::ptrdiff_t>(params_.reference_quantile * static_cast<double>(matched_.size() - 1));
     std::nth_element(matched_.begin(), matched_.begin() + rank, matched_.end());
     const auto [chosen_m2, piece] = matched_[static_cast<std::size_t>(rank)];
-    const double old_m2 = position_variance_m2(reference_);
+    const double old_m2 = position_variance_m2(reference_.drift);
     // In proportion, which is positive semi-definite whatever the two covariances' shapes.
     if (old_m2 > chosen_m2) add_to(added, covariance_at(position_m_), 1.0 - chosen_m2 / old_m2);
-    reference_ = pieces_[static_cast<std::size_t>(piece)].drift;
+    const Piece& chosen = pieces_[static_cast<std::size_t>(piece)];
+    reference_ = {chosen.drift, chosen.turn_at_birth_rad2};
     return added;
   }
 
@@ -107,25 +116,26 @@ class MapDrift {
   /// The turn of the reference was measured: it is `turn_rad` more than believed, with this variance. Turns the pieces that
   /// share in it and returns the twist of the reference, which a pose in it must take part in. O(pieces).
   Eigen::Vector3d correct_turn(double turn_rad, double variance_rad2) {
-    const double prior_rad2 = reference_(2, 2);
+    const double prior_rad2 = reference_.drift(2, 2);
     Eigen::Vector3d twist(0.0, 0.0, 0.0);
     if (prior_rad2 <= 0.0) return twist;
-    const double innovation_rad2 = prior_rad2 + variance_rad2;
-    twist = scaled(column(reference_, 2), turn_rad / innovation_rad2);
+    twist = scaled(column(reference_.drift, 2), turn_rad / (prior_rad2 + variance_rad2));
+    const Eigen::Matrix3d posterior = yaw_updated_covariance(reference_.drift, variance_rad2);
+    const double learned_rad2 = prior_rad2 - posterior(2, 2);
     for (Piece& piece : pieces_) {
       const double own_rad2 = piece.drift(2, 2);
       if (own_rad2 <= 0.0) continue;
-      // Of two links of a chain of independent steps, the older one's error is common to both.
-      const bool is_older = own_rad2 < prior_rad2;
-      const double common_rad2 = is_older ? own_rad2 : prior_rad2;
-      const Eigen::Vector3d moved =
-          is_older ? scaled(column(piece.drift, 2), turn_rad / innovation_rad2) : twist;
+      // Of two links of a chain of independent steps, the older one's error is common to both: the older turns by its
+      // share of the reference's turn, the newer by all of it. Measuring the reference does not change the share.
+      const double share = std::min(1.0, piece.turn_at_birth_rad2 / reference_.turn_at_birth_rad2);
+      const Eigen::Vector3d moved = share < 1.0 ? scaled(column(piece.drift, 2), share * twist[2] / own_rad2) : twist;
       for (int axis = 0; axis < 3; ++axis) piece.twist[axis] += moved[axis];
-      // The noise with which this piece's own turn was measured: what is not common to both adds to it.
-      const double ratio = own_rad2 / common_rad2;
-      piece.drift = yaw_updated_covariance(piece.drift, ratio * ratio * innovation_rad2 - own_rad2);
+      // As if its own turn had been measured with the noise that takes as much from its variance.
+      const double own_learned_rad2 = share * share * learned_rad2;
+      if (own_learned_rad2 <= 0.0 || own_learned_rad2 >= own_rad2) continue;
+      piece.drift = yaw_updated_covariance(piece.drift, own_rad2 * (own_rad2 / own_learned_rad2 - 1.0));
     }
-    reference_ = yaw_updated_covariance(reference_, variance_rad2);
+    reference_.drift = posterior;
     return twist;
   }
 
@@ -136,7 +146,7 @@ class MapDrift {
     double variance_m2 = 0.0;
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) {
-        variance_m2 += jacobian[row] * (drift(row, column) - reference_(row, column)) * jacobian[column];
+        variance_m2 += jacobian[row] * (drift(row, column) - reference_.drift(row, column)) * jacobian[column];
       }
     }
     return std::max(0.0, variance_m2);
@@ -146,6 +156,7 @@ class MapDrift {
   struct Piece {
     Eigen::Matrix3d drift;
     Eigen::Vector3d twist;  // how far it was moved since it was born
+    double turn_at_birth_rad2;
   };
 
   [[nodiscard]] static Eigen::Vector3d column(const Eigen::Matrix3d& matrix, int index) {
@@ -160,7 +171,7 @@ class MapDrift {
   }
 
   Params params_;
-  Eigen::Matrix3d reference_ = Eigen::Matrix3d::Zero();
+  Reference reference_;
   std::vector<Piece> pieces_;
   std::vector<std::pair<double, int>> matched_;  // drift at the position, piece
   Eigen::Vector2d position_m_{0.0, 0.0};

@@ -51,7 +51,7 @@ struct ScanConsistency {
 };
 
 /// Compares a scan taken at T_map_sensor with a map that has not taken it. A beam agrees when it ends within the tolerance
-/// of the first surface on its way; it contradicts when it passes one, or ends in a cell that is certainly free. What it
+/// of the first surface on its way; it contradicts when it passes one, or when all is certainly free where it ends. What it
 /// finds in unknown space is not judged. O(beams_max * cells a beam); safe to call from many threads.
 template <class MapType>
 [[nodiscard]] ScanConsistency scan_consistency(const MapType& map, const Scan<2>& scan, const Pose2& T_map_sensor,
@@ -66,20 +66,23 @@ template <class MapType>
     const double range_m = scan.range_m(beam);
     const Eigen::Vector2d direction = product(rotation, scan.direction(beam));
     bool meets_surface = false;
-    double surface_m = 0.0;
+    bool ends_in_free = true;
+    double along_m = 0.0;
     traverse<2>(map.lattice(), origin, sum(origin, scaled(direction, range_m + params.tolerance_m)),
                 [&](const Index<2>& index) {
-                  meets_surface = map.log_odds(index) > params.occupied_above;
-                  if (meets_surface) surface_m = dot(direction, difference(map.lattice().center_m(index), origin));
+                  const float log_odds = map.log_odds(index);
+                  meets_surface = log_odds > params.occupied_above;
+                  if (log_odds < params.free_below) return true;
+                  along_m = dot(direction, difference(map.lattice().center_m(index), origin));
+                  if (along_m > range_m - params.tolerance_m) ends_in_free = false;
                   return !meets_surface;
                 });
-    if (meets_surface && surface_m < range_m - params.tolerance_m) {
+    if (meets_surface && along_m < range_m - params.tolerance_m) {
       ++result.contradicting;
     } else if (reading == Reading::hit && meets_surface) {
       ++result.agreeing;
-    } else if (reading == Reading::hit) {
-      const Eigen::Vector2d end_m = sum(origin, scaled(direction, range_m));
-      if (map.log_odds(map.lattice().index_of(end_m)) < params.free_below) ++result.contradicting;
+    } else if (reading == Reading::hit && ends_in_free) {
+      ++result.contradicting;
     }
   }
   return result;

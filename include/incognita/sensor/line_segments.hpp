@@ -14,7 +14,7 @@ namespace incognita {
 
 /// A line through consecutive end points.
 struct LineSegment {
-  double angle_rad;      ///< of the line in the sensor's frame, in (-pi/2, pi/2]
+  double angle_rad;      ///< of the line in the sensor's frame, in [-pi/2, pi/2]
   double variance_rad2;  ///< of that angle, from the noise of the ranges
   double length_m;
 };
@@ -24,7 +24,7 @@ struct LineSegmentParams {
   double gap_max_m = 0.5;         ///< between neighbouring end points of a piece
   double deviation_max_m = 0.04;  ///< of an end point from the chord: four times the noise of a usual range
   double length_min_m = 0.6;
-  int points_min = 6;             ///< >= 3
+  int points_min = 6;             ///< >= 5
   double noise_m = 0.01;          ///< of an end point, at least
 
   /// Throws std::invalid_argument for values outside of their bounds.
@@ -32,7 +32,7 @@ struct LineSegmentParams {
     require_positive("LineSegmentParams", "gap_max_m", gap_max_m);
     require_positive("LineSegmentParams", "deviation_max_m", deviation_max_m);
     require_positive("LineSegmentParams", "length_min_m", length_min_m);
-    require(points_min >= 3, "LineSegmentParams", "points_min", points_min, ">= 3");
+    require(points_min >= 5, "LineSegmentParams", "points_min", points_min, ">= 5");
     require_positive("LineSegmentParams", "noise_m", noise_m);
   }
 };
@@ -83,7 +83,10 @@ inline void split_into_segments(const Scan<2>& scan, std::size_t first, std::siz
     split_into_segments(scan, first, split, params, segments);
     split_into_segments(scan, split, last, params, segments);
   } else if (length_m >= params.length_min_m) {
-    segments.push_back(fit_line_segment(scan, first, last, params.noise_m));
+    // The ends belong to corners: the deviation that is allowed hides some of the next wall there.
+    const std::size_t margin = 1 + (last - first) / 12;
+    segments.push_back(fit_line_segment(scan, first + margin, last - margin, params.noise_m));
+    segments.back().length_m = length_m;
   }
 }
 
