@@ -55,6 +55,4 @@ class DeadReckoning {
   PoseBelief belief_;
 };
 
-static_assert(Estimator<DeadReckoning>);
-
 }  // namespace incognita

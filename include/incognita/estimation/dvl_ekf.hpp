@@ -23,7 +23,11 @@ namespace incognita {
 /// corrects position and heading against sub-cell surfaces. Form::ray is Lemma 4.1 to the letter, hits associated by
 /// casting the beam in the belief: it does not observe the heading and drifts (reading: 1.5 m and more), so it is there
 /// for comparison. Decisions are predicted with the ray form, whichever form estimates.
-class DvlEkf {
+/// A template, so that who includes this header and does not use it does not pay for it; planar so far.
+template <int Dim = 2>
+class BasicDvlEkf {
+  static_assert(Dim == 2, "the filter is planar");
+
  public:
   enum class Form { registration, ray };
 
@@ -43,7 +47,7 @@ class DvlEkf {
     bool coupled = true;
     double decoupled_probability_min = 0.65;
     RegistrationParams registration;
-    SurfaceMap<2>::Params surfaces;
+    typename SurfaceMap<Dim>::Params surfaces;
     MapDrift::Params drift;
     /// Whether headings are also measured by the building's dominant directions, where it has them.
     bool uses_compass = true;
@@ -61,10 +65,10 @@ class DvlEkf {
     RayUpdateParams imagined{{}, 1.2, Tempering::beams, MixtureVariance::squared_weights};
   };
 
-  DvlEkf() : DvlEkf(Params{}) {}
+  BasicDvlEkf() : BasicDvlEkf(Params{}) {}
 
   /// Throws std::invalid_argument for parameters outside of their bounds; the noise must be > 0.
-  explicit DvlEkf(const Params& params)
+  explicit BasicDvlEkf(const Params& params)
       : params_(params),
         belief_(params.start),
         in_map_(params.start.covariance),
@@ -92,7 +96,7 @@ class DvlEkf {
 
   [[nodiscard]] const Params& params() const { return params_; }
   [[nodiscard]] const PoseBelief& belief() const { return belief_; }
-  [[nodiscard]] const SurfaceMap<2>& surfaces() const { return surfaces_; }
+  [[nodiscard]] const SurfaceMap<Dim>& surfaces() const { return surfaces_; }
 
   /// The part of belief() that is the drift of the map around; the rest is the uncertainty in that map.
   [[nodiscard]] const MapDrift& drift() const { return drift_; }
@@ -109,7 +113,7 @@ class DvlEkf {
 
   /// Corrects the belief by a scan; `map` must not have taken the scan yet.
   template <class MapType>
-  CorrectionReport correct(const Scan<2>& scan, const MapType& map) {
+  CorrectionReport correct(const Scan<Dim>& scan, const MapType& map) {
     if (!is_ready()) {
       if (stands_at_start()) {
         ++scans_held_;
@@ -124,9 +128,7 @@ class DvlEkf {
     return params_.form == Form::registration ? correct_by_registration(scan, map) : correct_by_rays(scan, map);
   }
 
-  /// Adds the scan's end points, seen from the belief, to the surfaces. A template so that including this header does not
-  /// compile it.
-  template <int Dim>
+  /// Adds the scan's end points, seen from the belief, to the surfaces.
   void learn(const Scan<Dim>& scan) {
     if (params_.form != Form::registration) return;
     const Eigen::Matrix2d rotation = belief_.pose.rotation();
@@ -187,20 +189,20 @@ class DvlEkf {
   /// What register_scan asks of the surfaces.
   template <class MapType>
   struct SurfacesInMap {
-    const DvlEkf& filter;
+    const BasicDvlEkf& filter;
     const MapType& map;
 
-    [[nodiscard]] double occupied_probability(const Surface<2>& surface) const {
+    [[nodiscard]] double occupied_probability(const Surface<Dim>& surface) const {
       // The belief's hits lie a little behind the measured face, so look there too.
       const Eigen::Vector2d face_m = sum(surface.mean_m, shift_m(surface, surface.mean_m));
       const double at_face = map.probability(map.lattice().index_of(face_m));
       const double behind = map.probability(map.lattice().index_of(sum(face_m, scaled(surface.view, 0.1))));
       return filter.admitted(std::max(at_face, behind));
     }
-    [[nodiscard]] double excess_variance_m2(const Surface<2>& surface, const Eigen::Vector3d& jacobian) const {
+    [[nodiscard]] double excess_variance_m2(const Surface<Dim>& surface, const Eigen::Vector3d& jacobian) const {
       return filter.drift_.variance_beyond_reference_m2(surface.piece, jacobian);
     }
-    [[nodiscard]] Eigen::Vector2d shift_m(const Surface<2>& surface, const Eigen::Vector2d& at_m) const {
+    [[nodiscard]] Eigen::Vector2d shift_m(const Surface<Dim>& surface, const Eigen::Vector2d& at_m) const {
       return filter.drift_.shift_m(surface.piece, at_m);
     }
   };
@@ -212,14 +214,14 @@ class DvlEkf {
     add_to(belief_.covariance, drift_.covariance_at(in_map.pose.position()));
   }
 
-  void correct_by_compass(const Scan<2>& scan) {
+  void correct_by_compass(const Scan<Dim>& scan) {
     const auto heading = compass_.measure(scan, belief_.pose.yaw_rad);
     if (heading) correct_heading(heading->yaw_rad, std::sqrt(heading->variance_rad2));
   }
 
   /// Registers to the oldest surfaces in sight from now on. A few beams are enough to tell which.
   template <class SurfaceBelief>
-  void choose_reference(const Scan<2>& scan, const SurfaceBelief& surface_belief) {
+  void choose_reference(const Scan<Dim>& scan, const SurfaceBelief& surface_belief) {
     const Eigen::Vector2d origin = belief_.pose.position();
     const Eigen::Matrix2d rotation = belief_.pose.rotation();
     drift_.begin_matches(origin);
@@ -235,7 +237,7 @@ class DvlEkf {
   }
 
   template <class MapType>
-  CorrectionReport correct_by_registration(const Scan<2>& scan, const MapType& map) {
+  CorrectionReport correct_by_registration(const Scan<Dim>& scan, const MapType& map) {
     const SurfacesInMap<MapType> surface_belief{*this, map};
     const PoseBelief predicted{belief_.pose, in_map_};
     const MapDrift::Reference reference = drift_.reference();
@@ -283,7 +285,7 @@ class DvlEkf {
   /// Looks for a place that scan and map agree on better: heading as predicted at first, all around now and then. Takes none
   /// when two are as good as each other.
   template <class MapType>
-  bool relocate(const Pose2& predicted, const Scan<2>& scan, const SurfacesInMap<MapType>& surface_belief,
+  bool relocate(const Pose2& predicted, const Scan<Dim>& scan, const SurfacesInMap<MapType>& surface_belief,
                 const MapType& map, Registration& registration, ScanConsistency& consistency) {
     const bool is_contradicted = doubtful_scans_ > 0;
     const bool is_wide = is_contradicted && doubtful_scans_ % wide_search_every == 0;
@@ -315,7 +317,7 @@ class DvlEkf {
   }
 
   template <class MapType>
-  CorrectionReport correct_by_rays(const Scan<2>& scan, const MapType& map) {
+  CorrectionReport correct_by_rays(const Scan<Dim>& scan, const MapType& map) {
     std::vector<RayObservation> hits;
     const Eigen::Vector2d origin = belief_.pose.position();
     const Eigen::Matrix2d rotation = belief_.pose.rotation();
@@ -361,16 +363,16 @@ class DvlEkf {
   PoseBelief belief_;
   Eigen::Matrix3d in_map_;  ///< the covariance of belief_ without the map's drift
   PoseBelief driven_;  ///< by odometry alone, since the start, until ready
-  SurfaceMap<2> surfaces_;
+  SurfaceMap<Dim> surfaces_;
   MapDrift drift_;
   Compass compass_;
-  CorrelativeSearch<2> search_;
+  CorrelativeSearch<Dim> search_;
   int doubtful_scans_ = 0;  ///< in a row
   int scans_since_search_ = 0;
   double mean_share_ = 0.8;  ///< of the beams that agree with the map, over trusted scans
   int scans_held_ = 0;
 };
 
-static_assert(Estimator<DvlEkf>);
+using DvlEkf = BasicDvlEkf<2>;
 
 }  // namespace incognita

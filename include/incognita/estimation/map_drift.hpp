@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -88,7 +87,7 @@ class MapDrift {
   }
 
   void add_match(int piece) {
-    matched_.emplace_back(position_variance_m2(pieces_[static_cast<std::size_t>(piece)].drift), piece);
+    matched_.push_back({position_variance_m2(pieces_[static_cast<std::size_t>(piece)].drift), piece});
   }
 
   /// Makes the chosen piece the reference, and returns what its choice adds to the pose's covariance: the old reference's
@@ -96,9 +95,7 @@ class MapDrift {
   [[nodiscard]] Eigen::Matrix3d choose_reference() {
     Eigen::Matrix3d added = Eigen::Matrix3d::Zero();
     if (matched_.empty()) return added;
-    const auto rank = static_cast<std::ptrdiff_t>(params_.reference_quantile * static_cast<double>(matched_.size() - 1));
-    std::nth_element(matched_.begin(), matched_.begin() + rank, matched_.end());
-    const auto [chosen_m2, piece] = matched_[static_cast<std::size_t>(rank)];
+    const auto [chosen_m2, piece] = matched_[of_rank(params_.reference_quantile)];
     const double old_m2 = position_variance_m2(reference_.drift);
     // In proportion, which is positive semi-definite whatever the two covariances' shapes.
     if (old_m2 > chosen_m2) add_to(added, covariance_at(position_m_), 1.0 - chosen_m2 / old_m2);
@@ -159,8 +156,27 @@ class MapDrift {
     double turn_at_birth_rad2;
   };
 
+  struct Match {
+    double drift_m2;  // at the position
+    int piece;
+  };
+
   [[nodiscard]] static Eigen::Vector3d column(const Eigen::Matrix3d& matrix, int index) {
     return {matrix(0, index), matrix(1, index), matrix(2, index)};
+  }
+
+  /// The place of the match below which a share `quantile` of them lies, by drift. By counting: there are some tens, and
+  /// every program that includes this header would pay for an instance of nth_element.
+  [[nodiscard]] std::size_t of_rank(double quantile) const {
+    const auto rank = static_cast<std::size_t>(quantile * static_cast<double>(matched_.size() - 1));
+    for (std::size_t i = 0; i < matched_.size(); ++i) {
+      std::size_t below = 0;
+      for (std::size_t j = 0; j < matched_.size(); ++j) {
+        if (matched_[j].drift_m2 < matched_[i].drift_m2 || (matched_[j].drift_m2 == matched_[i].drift_m2 && j < i)) ++below;
+      }
+      if (below == rank) return i;
+    }
+    return 0;
   }
 
   /// The sum of the variances of the two coordinates, at the position that is being matched.
@@ -173,7 +189,7 @@ class MapDrift {
   Params params_;
   Reference reference_;
   std::vector<Piece> pieces_;
-  std::vector<std::pair<double, int>> matched_;  // drift at the position, piece
+  std::vector<Match> matched_;
   Eigen::Vector2d position_m_{0.0, 0.0};
   long scans_ = 0;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -300,11 +299,10 @@ class Explorer {
   [[nodiscard]] std::vector<Candidate> first_informative(std::vector<Candidate> reachable) {
     const double gain_min_nats = params_.gain_min_cells * entropy_(0.0F);
     std::vector<Candidate> informative;
-    auto next = reachable.begin();
-    while (informative.empty() && next != reachable.end()) {
-      const auto end = next + std::min<std::ptrdiff_t>(params_.candidates_max, reachable.end() - next);
-      informative.assign(std::make_move_iterator(next), std::make_move_iterator(end));
-      next = end;
+    std::size_t next = 0;
+    while (informative.empty() && next < reachable.size()) {
+      const std::size_t end = std::min(reachable.size(), next + static_cast<std::size_t>(params_.candidates_max));
+      for (; next < end; ++next) informative.push_back(std::move(reachable[next]));
       evaluate_candidates(map_, entropy_, filter_, informative, params_.gain, params_.threads, workspaces_);
       std::erase_if(informative, [&](const Candidate& c) { return c.gain_nats < gain_min_nats; });
     }
