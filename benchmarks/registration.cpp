@@ -150,7 +150,7 @@ void register_course(Place place, std::size_t beams) {
 
 int main(int argc, char** argv) {
   for (const Place place : {Place::room, Place::floor}) {
-    for (const std::size_t beams : {90, 180, 360}) register_course(place, beams);
+    for (const std::size_t beams : {90U, 180U, 360U}) register_course(place, beams);
   }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

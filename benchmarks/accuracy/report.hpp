@@ -53,7 +53,7 @@ inline void print_missions_header() {
   std::printf(
       "\n## Missions\n\n"
       "An explorer with the defaults, 360 beams. The first mission of each building is replayed below.\n\n"
-      "| building | seed | duration, s | driven, m | ended | position RMSE, m | heading RMSE, mrad | mean "
+      "| building | mission | duration, s | driven, m | ended | position RMSE, m | heading RMSE, mrad | mean "
       "NEES |\n"
       "|---|---|---|---|---|---|---|---|\n");
 }
