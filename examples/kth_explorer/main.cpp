@@ -89,6 +89,13 @@ void print_table(const nlohmann::ordered_json& metrics, const std::filesystem::p
   std::printf("Results are in %s\n", folder.string().c_str());
 }
 
+template <class Filter>
+Filter make_filter(const Options& options) {
+  typename Filter::Params params;
+  if constexpr (requires { params.uses_compass; }) params.uses_compass = options.compass == "on";
+  return Filter(params);
+}
+
 template <class Cell, class Filter>
 void explore(const Options& options, incognita::Simulator& simulator, const incognita::RobotParams& robot,
              double range_max_m, examples::OutputFolder& output) {
@@ -101,7 +108,8 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   params.threads = options.threads;
   MapParams map_params;
   map_params.resolution_m = options.resolution_m;
-  Explorer<Map<Cell>, Measure, Filter> explorer(params, Map<Cell>(map_params), make_measure(options));
+  Explorer<Map<Cell>, Measure, Filter> explorer(params, Map<Cell>(map_params), make_measure(options),
+                                                make_filter<Filter>(options));
 
   std::function<void(const ProgressRecord&)> report;
   if (!options.quiet) report = [&](const ProgressRecord& p) { print_progress(p, options.duration_s); };

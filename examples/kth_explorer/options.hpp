@@ -21,6 +21,7 @@ struct Options {
   std::string entropy = "behavioral";
   double alpha = 1.0;
   std::string filter = "dvl-ekf";
+  std::string compass = "on";
   std::string ranking = "gain-per-metre";
   double duration_s = 1800.0;
   std::uint64_t seed = 1;
@@ -57,6 +58,9 @@ struct Options {
       ->capture_default_str();
   app.add_option("--filter", options.filter, "how the pose is estimated")
       ->check(CLI::IsMember({"dvl-ekf", "dead-reckoning"}))
+      ->capture_default_str();
+  app.add_option("--compass", options.compass, "whether the filter takes headings from walls that stand at right angles")
+      ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   app.add_option("--ranking", options.ranking, "candidates by information gain alone (as the paper) or by metre of path")
       ->check(CLI::IsMember({"gain", "gain-per-metre"}))

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "incognita/estimation/correlative_search.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/geometry/box.hpp"
 #include "incognita/geometry/vector.hpp"
@@ -30,16 +29,13 @@ namespace log_mapping {
   params.registration.iterations = 8;
   params.registration.gamma = 200.0;
   params.registration.residual_scale_m = 0.02;
-  params.surfaces.cell_m = 0.1;
+  params.surfaces.flatness = 0.1;  // real walls have frames, radiators and shelves
+  // Three sigmas and more of what wheels do in half a metre, and farther than registration reaches.
+  // Furniture, glass and people, and a map of few scans: a scan at the right place may contradict half of it.
+  params.consistency.share_min = 0.25;
+  params.searches_each_scan = true;
+  params.search_window = {0.3, 0.3, 0.21};
   return params;
-}
-
-/// Whether a correction rested on too little to be trusted.
-[[nodiscard]] inline bool is_lost(const incognita::CorrectionReport& report, const incognita::Scan<2>& scan) {
-  std::size_t hits = 0;
-  for (std::size_t beam = 0; beam < scan.size(); ++beam)
-    hits += scan.reading(beam) == incognita::Reading::hit;
-  return 5 * report.associations < hits;
 }
 
 /// What mapping a log leaves. Trajectories are the robot's, in the map's frame.
@@ -50,23 +46,6 @@ struct MappingRecord {
   double distance_m = 0.0;   ///< by odometry
   double wall_time_s = 0.0;  ///< of estimation and mapping, without files
 };
-
-/// The motion since the last scan, by odometry and then by where the scan fits what the filter has learnt
-/// best within 0.3 m and 0.21 rad of it: three sigmas and more of what wheels do in half a metre, and farther
-/// than registration reaches. While the robot stands at its start, and where nothing fits, odometry stays.
-[[nodiscard]] inline incognita::Pose2 searched_increment(incognita::CorrelativeSearch<2>& search,
-                                                         const incognita::DvlEkf& filter,
-                                                         const incognita::Scan<2>& scan,
-                                                         const incognita::Pose2& increment,
-                                                         double duration_s) {
-  const incognita::DvlEkf::Params& params = filter.params();
-  const bool moves = incognita::norm(increment.position()) > params.start_hold_distance_m ||
-                     std::abs(increment.yaw_rad) > params.start_hold_turn_rad;
-  if (!filter.is_ready() && !moves) return increment;
-  const incognita::PoseBelief predicted = filter.imagine_motion(filter.belief(), increment, duration_s);
-  const auto& candidates = search.find(scan, filter.surfaces(), predicted, {0.3, 0.3, 0.21});
-  return candidates.empty() ? increment : filter.belief().pose.inverse() * candidates.front().pose;
-}
 
 /// Maps a log by odometry and scans alone. `filter` starts at the first scan, with its belief at the laser's
 /// pose in the map's frame; `file` is named in errors. Throws incognita::InputError when odometry leads so
@@ -79,7 +58,6 @@ template <class Map>
   const Pose2 T_laser_robot = log.T_robot_laser.inverse();
   const Pose2 T_map_odom = filter.belief().pose * T_laser_robot * log.scans.front().T_odom_robot.inverse();
   MappingRecord record;
-  CorrelativeSearch<2> search;
   Scan<2> scan(log.beams);
   Pose2 T_odom_laser = log.scans.front().T_odom_robot * log.T_robot_laser;
   double time_s = log.scans.front().time_s;
@@ -90,9 +68,9 @@ template <class Map>
     const Pose2 T_odom_next = entry.T_odom_robot * log.T_robot_laser;
     const Pose2 increment = T_odom_laser.inverse() * T_odom_next;
     const double duration_s = entry.time_s - time_s;
-    filter.predict(searched_increment(search, filter, scan, increment, duration_s), duration_s);
+    filter.predict(increment, duration_s);
     const CorrectionReport report = filter.correct(scan, map);
-    if (filter.is_ready() && is_lost(report, scan)) ++record.lost_scans;
+    if (report.lost) ++record.lost_scans;
 
     const Point<2> margin_m = Point<2>::Constant(scan.range_max_m());
     reach_m.stretch_to(filter.belief().pose.position() - margin_m);
@@ -103,8 +81,10 @@ template <class Map>
                                  format_number(std::round(reach_m.extent().y())) + " m, which is more than " +
                                  format_number(cells_max) + " cells of the map");
     }
-    map.update(scan, filter.belief().pose, filter.belief().covariance);
-    filter.learn(scan);
+    if (report.trusted) {
+      map.update(scan, filter.belief().pose, filter.belief().covariance);
+      filter.learn(scan);
+    }
 
     record.distance_m += norm(increment.position());
     record.estimated.push_back({entry.time_s, filter.belief().pose * T_laser_robot});

@@ -53,7 +53,7 @@ class BasicDvlEkf {
     bool uses_compass = true;
     CompassParams compass;
     /// Where odometry may be far off, search for the best place in search_window before each registration; else only when
-    /// registration's result contradicts the map.
+    /// registration's result contradicts the map, or fits it worse than usual.
     bool searches_each_scan = false;
     SearchWindow search_window{0.3, 0.3, 0.21};
     CorrelativeSearchParams search;
@@ -124,7 +124,6 @@ class BasicDvlEkf {
       scans_held_ = params_.start_scans_held;
       believe(driven_);
     }
-    if (params_.uses_compass && doubtful_scans_ == 0) correct_by_compass(scan);
     return params_.form == Form::registration ? correct_by_registration(scan, map) : correct_by_rays(scan, map);
   }
 
@@ -245,6 +244,7 @@ class BasicDvlEkf {
       const auto& candidates = search_.find(scan, surfaces_, predicted, params_.search_window);
       if (!candidates.empty()) believe({candidates.front().pose, in_map_});
     }
+    if (params_.uses_compass && doubtful_scans_ == 0) correct_by_compass(scan);
     choose_reference(scan, surface_belief);
     Registration registration =
         register_scan({belief_.pose, in_map_}, scan, surfaces_, params_.registration, surface_belief);
@@ -278,7 +278,7 @@ class BasicDvlEkf {
   /// Whether a scan that the map does not contradict still fits it worse than scans usually do: a corridor looks much the
   /// same a metre further.
   [[nodiscard]] bool is_unusual(const ScanConsistency& consistency) const {
-    return scans_since_search_ >= unusual_search_every && consistency.judged() >= params_.consistency.beams_min &&
+    return !params_.searches_each_scan && scans_since_search_ >= unusual_search_every && consistency.judged() >= params_.consistency.beams_min &&
            consistency.share() < mean_share_ - relocation_share_margin;
   }
 
