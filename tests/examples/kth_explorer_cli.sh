@@ -68,6 +68,7 @@ refused "a start without a point" --start --start ""
 refused "a negative duration" --duration --duration -5
 refused "an unknown option" --frobnicate --frobnicate
 refused "an unknown entropy" --entropy --entropy gibbs
+refused "a compass of another kind" --compass --compass maybe
 refused "negative threads" --threads --threads -1
 
 mkdir -p blocked/overview.png
