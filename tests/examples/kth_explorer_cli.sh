@@ -2,32 +2,8 @@
 # The command line of kth_explorer: what it refuses, what it writes, and that runs repeat.
 # Usage: kth_explorer_cli.sh PATH_OF_KTH_EXPLORER
 set -u
-explorer=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failures=0
-
-fail() {
-  echo "FAILED: $*" >&2
-  failures=$((failures + 1))
-}
-
-# refused NAME TEXT ARGUMENTS...: exit code 2, one line on stderr with TEXT in it, nothing written.
-refused() {
-  local name=$1 text=$2 before after code
-  shift 2
-  before=$(find . | sort)
-  "$explorer" --quiet --output "${output:-out/deep}" "$@" >../stdout.$$ 2>../stderr.$$
-  code=$?
-  after=$(find . | sort)
-  [ $code -eq 2 ] || fail "$name: exit code $code instead of 2"
-  [ "$(wc -l <../stderr.$$)" -eq 1 ] || fail "$name: not one line on stderr: $(cat ../stderr.$$)"
-  [ -s ../stdout.$$ ] && fail "$name: something on stdout: $(cat ../stdout.$$)"
-  grep -qiF -- "$text" ../stderr.$$ || fail "$name: \"$text\" is not in: $(cat ../stderr.$$)"
-  [ "$before" = "$after" ] || fail "$name: left something behind: $after"
-  rm -f ../stdout.$$ ../stderr.$$
-}
+program=$(realpath "$1")
+source "$(dirname "$(realpath "$0")")/cli.sh"
 
 mkdir inputs run
 cd inputs
@@ -75,7 +51,7 @@ mkdir -p blocked/overview.png
 output=blocked refused "a result whose name is a folder" overview.png --duration 1e6
 rm -r blocked
 
-help=$("$explorer" --help 2>stderr) || fail "--help: exit code $?"
+help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
 [ -s stderr ] && fail "--help: something on stderr"
 for option in help map cells entropy alpha filter duration seed start resolution threads output quiet; do
   grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
@@ -85,7 +61,7 @@ done
 run() {
   local name=$1
   shift
-  "$explorer" --quiet --duration 20 --seed 1 --output "$name" "$@" >stdout 2>stderr || fail "$name: exit code $?: $(cat stderr)"
+  "$program" --quiet --duration 20 --seed 1 --output "$name" "$@" >stdout 2>stderr || fail "$name: exit code $?: $(cat stderr)"
   [ -s stdout ] || [ -s stderr ] && fail "$name: --quiet prints"
 }
 run one --threads 1

@@ -3,31 +3,7 @@
 # Usage: log_mapping_cli.sh PATH_OF_LOG_MAPPING
 set -u
 program=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failures=0
-
-fail() {
-  echo "FAILED: $*" >&2
-  failures=$((failures + 1))
-}
-
-# refused NAME TEXT ARGUMENTS...: exit code 2, one line on stderr with TEXT in it, nothing written.
-refused() {
-  local name=$1 text=$2 before after code
-  shift 2
-  before=$(find . | sort)
-  "$program" --quiet --output "${output:-out/deep}" "$@" >../stdout.$$ 2>../stderr.$$
-  code=$?
-  after=$(find . | sort)
-  [ $code -eq 2 ] || fail "$name: exit code $code instead of 2"
-  [ "$(wc -l <../stderr.$$)" -eq 1 ] || fail "$name: not one line on stderr: $(cat ../stderr.$$)"
-  [ -s ../stdout.$$ ] && fail "$name: something on stdout: $(cat ../stdout.$$)"
-  grep -qiF -- "$text" ../stderr.$$ || fail "$name: \"$text\" is not in: $(cat ../stderr.$$)"
-  [ "$before" = "$after" ] || fail "$name: left something behind: $after"
-  rm -f ../stdout.$$ ../stderr.$$
-}
+source "$(dirname "$(realpath "$0")")/cli.sh"
 
 # A robot drives 2 m along a room of 8 x 6 m, from its middle, heading for the wall 4 m ahead. 181 beams; a gap ahead
 # on the left returns nothing. Odometry is 2 % long. Written as CARMEN log, as JSON, and as JSON with the true poses.

@@ -1,0 +1,27 @@
+# What the tests of command lines share. Source it with $program, the program under test; it changes to a new folder, which
+# is removed in the end, and counts in $failures.
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failures=0
+
+fail() {
+  echo "FAILED: $*" >&2
+  failures=$((failures + 1))
+}
+
+# refused NAME TEXT ARGUMENTS...: exit code 2, one line on stderr with TEXT in it, nothing written.
+refused() {
+  local name=$1 text=$2 before after code
+  shift 2
+  before=$(find . | sort)
+  "$program" --quiet --output "${output:-out/deep}" "$@" >../stdout.$$ 2>../stderr.$$
+  code=$?
+  after=$(find . | sort)
+  [ $code -eq 2 ] || fail "$name: exit code $code instead of 2"
+  [ "$(wc -l <../stderr.$$)" -eq 1 ] || fail "$name: not one line on stderr: $(cat ../stderr.$$)"
+  [ -s ../stdout.$$ ] && fail "$name: something on stdout: $(cat ../stdout.$$)"
+  grep -qiF -- "$text" ../stderr.$$ || fail "$name: \"$text\" is not in: $(cat ../stderr.$$)"
+  [ "$before" = "$after" ] || fail "$name: left something behind: $after"
+  rm -f ../stdout.$$ ../stderr.$$
+}
