@@ -102,9 +102,9 @@ struct CompassParams {
   return found;
 }
 
-/// Keeps the direction of a building's walls in the map's frame and measures headings by it. The direction is learned
-/// as the mean over all scans, because the first ones are few and may have seen walls that are not like the others. Silent as long as scans, or their mean, have no dominant direction: in round and oblique buildings.
-/// Not thread safe.
+/// Keeps the direction of a building's walls in the map's frame and measures headings by it. The direction is learned as the
+/// mean over all scans, because the first ones are few and may have seen walls that are not like the others. Silent for
+/// scans without a dominant direction, and while the mean over the last scans has none. Not thread safe.
 class Compass {
  public:
   /// A heading and its variance.

@@ -60,7 +60,8 @@ struct SearchCandidate {
 /// scan's hits, of the LikelihoodGrid's value in the cell where the hit ends, less prior_weight times
 /// SearchPrior. A candidate is a pose whose 26 neighbours in the lattice are all worse; they are taken best
 /// first, leaving out what is nearer to one taken before than both separations. Poses where no hit fits
-/// anything do not count. The result is that of looking at every pose; of equal poses the one with the smallest turn, then y, then x, is better.
+/// anything do not count. The result is that of looking at every pose; of equal poses the one with the smallest
+/// turn, then y, then x, is better. Surfaces are taken where they were measured, without the shifts of MapDrift.
 ///
 /// Squares of positions are bounded by a LikelihoodPyramid and split best bound first (Hess et al., 2016,
 /// section V); squares of 8 x 8 are scored whole. Scores are whole numbers, so the outcome is the same on

@@ -148,11 +148,11 @@ class BasicDvlEkf {
     require_positive("DvlEkf::correct_heading", "sigma_rad", sigma_rad);
     const double variance_rad2 = sigma_rad * sigma_rad;
     const Eigen::Matrix3d prior = belief_.covariance;
-    const double turn_rad = angle_between_rad(belief_.pose.yaw_rad, yaw_rad) / (prior(2, 2) + variance_rad2);
+    const double off_rad = angle_between_rad(belief_.pose.yaw_rad, yaw_rad);
+    const double turn_rad = off_rad / (prior(2, 2) + variance_rad2);
     const Pose2 pose{belief_.pose.x_m + prior(0, 2) * turn_rad, belief_.pose.y_m + prior(1, 2) * turn_rad,
                      wrap_angle_rad(belief_.pose.yaw_rad + prior(2, 2) * turn_rad)};
     // Both parts of the covariance learn from it, each taking the other for noise. The map around turns with its drift.
-    const double off_rad = angle_between_rad(belief_.pose.yaw_rad, yaw_rad);
     const double in_map_rad2 = in_map_(2, 2);
     const Eigen::Matrix3d in_map = yaw_updated_covariance(in_map_, drift_.covariance()(2, 2) + variance_rad2);
     (void)drift_.correct_turn(off_rad, in_map_rad2 + variance_rad2);
