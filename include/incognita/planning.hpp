@@ -1,6 +1,6 @@
 /// planning/: from a belief to speeds, for a disc-shaped robot in the plane. `TravelCostField` is one search
 /// that serves all goals; `find_path` and `shorten_path` turn it into a path; `PathFollower` follows a path;
-/// `guard_command` slows the robot down before what its latest scan shows; `retreat_command` takes it out of a tight
+/// `guard_command` slows the robot down before what its latest scan shows; `Retreat` takes it out of a tight
 /// place. Each part works without the others.
 #pragma once
 

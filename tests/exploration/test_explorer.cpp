@@ -264,7 +264,7 @@ TEST_CASE("explorer parameters out of bounds are refused by name and value") {
   refused([](auto& p) { p.gain_min_cells = -0.5; }, own, "gain_min_cells", "-0.5");
   refused([](auto& p) { p.decision_interval_s = -1.5; }, own, "decision_interval_s", "-1.5");
   refused([](auto& p) { p.blocked_max_s = 0.0; }, own, "blocked_max_s", "0");
-  refused([](auto& p) { p.retreat_distance_m = -2.5; }, own, "retreat_distance_m", "-2.5");
+  refused([](auto& p) { p.retreat.distance_m = -2.5; }, "RetreatParams", "distance_m", "-2.5");
   refused([](auto& p) { p.sought_known_share = 1.5; }, own, "sought_known_share", "1.5");
   refused([](auto& p) { p.sought_known_share = 0.0; }, own, "sought_known_share", "0");
   refused([&](auto& p) { p.position_sigma_max_m = nan; }, own, "position_sigma_max_m", "nan");

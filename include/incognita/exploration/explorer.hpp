@@ -48,7 +48,6 @@ struct ExplorerParams {
   double gain_min_cells = 7.0;             ///< not worth going for less than the entropy of so many unknown cells
   double decision_interval_s = 1.0;        ///< a goal that still leads somewhere is not reconsidered sooner
   double blocked_max_s = 1.0;              ///< standing before an obstacle for longer, the robot retreats from it
-  double retreat_distance_m = 0.1;         ///< how far, before it decides anew
   double sought_known_share = 0.7;         ///< decide anew when this share of what a goal should show is known
   double position_sigma_max_m = 1.0;       ///< lost beyond
   double lost_max_s = 10.0;                ///< lost when the filter has been lost for longer; the robot stands meanwhile
@@ -71,7 +70,6 @@ struct ExplorerParams {
     require_non_negative("ExplorerParams", "gain_min_cells", gain_min_cells);
     require_non_negative("ExplorerParams", "decision_interval_s", decision_interval_s);
     require_positive("ExplorerParams", "blocked_max_s", blocked_max_s);
-    require_positive("ExplorerParams", "retreat_distance_m", retreat_distance_m);
     require(sought_known_share > 0.0 && sought_known_share <= 1.0, "ExplorerParams", "sought_known_share",
             sought_known_share, "in (0, 1]");
     require_positive("ExplorerParams", "position_sigma_max_m", position_sigma_max_m);
@@ -150,12 +148,10 @@ class Explorer {
   /// The speeds that follow the chosen path, slowed down before what `scan`, the latest, shows. Zero without a goal.
   [[nodiscard]] Twist2 command(const Scan<2>& scan) {
     if (decision_.chosen() == nullptr || correction_.lost) return {};
-    const Eigen::Vector2d position = filter_.belief().pose.position();
-    if (retreats_from_) {
-      if (distance(position, *retreats_from_) < params_.retreat_distance_m) {
-        return guard_command(retreat_command(scan, params_.guard.robot_radius_m, params_.retreat), scan, params_.guard);
-      }
-      retreats_from_.reset();
+    const Pose2& pose = filter_.belief().pose;
+    if (retreat_) {
+      if (!retreat_->is_over(pose)) return retreat_->command(pose, scan);
+      retreat_.reset();
       must_decide_ = true;
       // A second retreat on the way to one goal means that its way is too tight.
       const Eigen::Vector2d& goal_m = decision_.chosen()->frontier_m;
@@ -164,13 +160,13 @@ class Explorer {
       }
       retreated_on_way_to_ = goal_m;
     }
-    const Twist2 wanted = follower_.command(filter_.belief().pose);
+    const Twist2 wanted = follower_.command(pose);
     const Twist2 allowed = guard_command(wanted, scan, params_.guard);
     const bool blocked = wanted.speed_m_per_s > 0.0 && allowed.speed_m_per_s == 0.0;
     if (!blocked) {
       unblocked_s_ = time_s_;
     } else if (time_s_ - unblocked_s_ > params_.blocked_max_s) {
-      retreats_from_ = position;
+      retreat_.emplace(pose, scan, params_.guard, params_.retreat);
     }
     return allowed;
   }
@@ -327,7 +323,7 @@ class Explorer {
   std::vector<Index<2>> trail_;  // the cells that the robot's centre has passed, each a face neighbour of the last
   std::vector<GainWorkspace<Cell>> workspaces_;
   std::optional<Eigen::Vector2d> failed_;
-  std::optional<Eigen::Vector2d> retreats_from_;  // where the robot stood when it began to retreat
+  std::optional<Retreat> retreat_;
   std::optional<Eigen::Vector2d> retreated_on_way_to_;  // the frontier that the last retreat was on the way to
   bool must_decide_ = false;
   double time_s_ = 0.0;
