@@ -16,6 +16,7 @@
 #include "incognita/estimation/pose_belief.hpp"
 #include "incognita/estimation/ray_update.hpp"
 #include "incognita/estimation/registration.hpp"
+#include "incognita/estimation/relocation.hpp"
 #include "incognita/estimation/scan_consistency.hpp"
 #include "incognita/estimation/search_lattice.hpp"
 #include "incognita/estimation/surface_map.hpp"

@@ -12,6 +12,7 @@
 #include "incognita/estimation/estimator.hpp"
 #include "incognita/estimation/map_drift.hpp"
 #include "incognita/estimation/registration.hpp"
+#include "incognita/estimation/relocation.hpp"
 #include "incognita/estimation/scan_consistency.hpp"
 #include "incognita/estimation/surface_map.hpp"
 #include "incognita/estimation/yaw_update.hpp"
@@ -59,6 +60,7 @@ class BasicDvlEkf {
     CorrelativeSearchParams search;
     /// What tells a wrong pose from a new place.
     ConsistencyParams consistency;
+    RelocationParams relocation;
     int lost_scans = 10;  ///< lost after so many scans in a row that contradict the map, >= 1
     RayUpdateParams ray;  ///< for Form::ray
     /// For imagined scans: divided by the number of beams, so that little is learned where little is seen.
@@ -76,7 +78,8 @@ class BasicDvlEkf {
         surfaces_(params.surfaces),
         drift_(params.drift),
         compass_(params.compass),
-        search_(params.search) {
+        search_(params.search),
+        relocation_(params.relocation) {
     require_belief("DvlEkf", params.start);
     require_positive("DvlEkf", "noise.position_m_per_sqrt_s", params.noise.position_m_per_sqrt_s);
     require_positive("DvlEkf", "noise.yaw_rad_per_sqrt_s", params.noise.yaw_rad_per_sqrt_s);
@@ -246,19 +249,38 @@ class BasicDvlEkf {
     }
     if (params_.uses_compass && doubtful_scans_ == 0) correct_by_compass(scan);
     choose_reference(scan, surface_belief);
-    Registration registration =
-        register_scan({belief_.pose, in_map_}, scan, surfaces_, params_.registration, surface_belief);
-    ScanConsistency consistency = scan_consistency(map, scan, registration.belief.pose, params_.consistency);
+    const auto fit_from = [&](const PoseBelief& start, const RegistrationParams& params, std::size_t beams_max) {
+      ConsistencyParams consistency = params_.consistency;
+      consistency.beams_max = beams_max;
+      const Registration found = register_scan(start, scan, surfaces_, params, surface_belief);
+      return ScanFit{found, scan_consistency(map, scan, found.belief.pose, consistency)};
+    };
+    ScanFit fit = fit_from({belief_.pose, in_map_}, params_.registration, params_.consistency.beams_max);
+    const std::size_t judged_min = params_.consistency.beams_min;
     CorrectionReport report;
-    report.trusted = consistency.holds(params_.consistency);
-    if (!report.trusted || is_unusual(consistency)) {
+    report.trusted = fit.consistency.holds(params_.consistency);
+    if (!report.trusted || is_unusual(fit.consistency)) {
       if (!report.trusted) ++doubtful_scans_;
-      scans_since_search_ = 0;
-      report.relocated = relocate(predicted.pose, scan, surface_belief, map, registration, consistency);
-      report.trusted = report.trusted || report.relocated;
+      ConsistencyParams all_beams = params_.consistency;
+      all_beams.beams_max = scan.size();
+      fit.consistency = scan_consistency(map, scan, fit.registration.belief.pose, all_beams);
+      const std::size_t all_judged_min = judged_min * std::max<std::size_t>(1, scan.size() / params_.consistency.beams_max);
+      if (doubtful_scans_ > 0 || relocation_.is_unusual(fit.consistency, all_judged_min)) {
+        scans_since_search_ = 0;
+        RegistrationParams params = params_.registration;
+        params.iterations = relocation_iterations;
+        const auto found = relocation_.better(
+            search_.find(scan, surfaces_, predicted.pose, relocation_window()), fit, doubtful_scans_ > 0, all_judged_min,
+            [&](const SearchCandidate& candidate) {
+              return fit_from({candidate.pose, diagonal_covariance(0.01, 0.01, 0.0025)}, params, scan.size());
+            });
+        if (found) fit = *found;
+        report.relocated = found.has_value();
+        report.trusted = report.trusted || report.relocated;
+      }
     }
     ++scans_since_search_;
-    report.consistent_share = consistency.share();
+    report.consistent_share = fit.consistency.share();
     if (!report.trusted) {
       drift_.restore(reference);
       believe(predicted);
@@ -266,54 +288,24 @@ class BasicDvlEkf {
       return report;
     }
     doubtful_scans_ = 0;
-    if (consistency.judged() >= params_.consistency.beams_min) {
-      mean_share_ += (consistency.share() - mean_share_) / share_memory_scans;
-    }
-    report.associations = registration.associations;
-    report.residual_rms_m = registration.residual_rms_m;
-    believe(registration.belief);
+    relocation_.add_usual(fit, judged_min);
+    report.associations = fit.registration.associations;
+    report.residual_rms_m = fit.registration.residual_rms_m;
+    believe(fit.registration.belief);
     return report;
   }
 
-  /// Whether a scan that the map does not contradict still fits it worse than scans usually do: a corridor looks much the
-  /// same a metre further.
+  /// Whether to look elsewhere although the map does not contradict the scan.
   [[nodiscard]] bool is_unusual(const ScanConsistency& consistency) const {
-    return !params_.searches_each_scan && scans_since_search_ >= unusual_search_every && consistency.judged() >= params_.consistency.beams_min &&
-           consistency.share() < mean_share_ - relocation_share_margin;
+    return !params_.searches_each_scan && scans_since_search_ >= unusual_search_every &&
+           relocation_.is_unusual(consistency, params_.consistency.beams_min);
   }
 
-  /// Looks for a place that scan and map agree on better: heading as predicted at first, all around now and then. Takes none
-  /// when two are as good as each other.
-  template <class MapType>
-  bool relocate(const Pose2& predicted, const Scan<Dim>& scan, const SurfacesInMap<MapType>& surface_belief,
-                const MapType& map, Registration& registration, ScanConsistency& consistency) {
-    const bool is_contradicted = doubtful_scans_ > 0;
-    const bool is_wide = is_contradicted && doubtful_scans_ % wide_search_every == 0;
-    const double reach_m = is_contradicted ? carried_m : slipped_m;
-    const SearchWindow window{reach_m, reach_m, is_wide ? std::numbers::pi : relocation_rad};
-    RegistrationParams params = params_.registration;
-    params.iterations = relocation_iterations;
-    const double share_min =
-        std::max(is_contradicted ? relocation_share_min : mean_share_, consistency.share() + relocation_share_margin);
-    bool is_found = false;
-    bool is_ambiguous = false;
-    for (const SearchCandidate& candidate : search_.find(scan, surfaces_, predicted, window)) {
-      const PoseBelief start{candidate.pose, diagonal_covariance(0.01, 0.01, 0.0025)};
-      const Registration found = register_scan(start, scan, surfaces_, params, surface_belief);
-      const ScanConsistency fit = scan_consistency(map, scan, found.belief.pose, params_.consistency);
-      if (fit.agreeing < params_.consistency.beams_min || fit.share() < share_min) continue;
-      const bool is_elsewhere =
-          distance(found.belief.pose.position(), registration.belief.pose.position()) > params_.search.separation_m;
-      if (is_found && is_elsewhere && std::abs(fit.share() - consistency.share()) < relocation_share_margin) {
-        is_ambiguous = true;
-      }
-      if (is_found && fit.share() <= consistency.share()) continue;
-      if (is_found && fit.share() >= consistency.share() + relocation_share_margin) is_ambiguous = false;
-      is_found = true;
-      registration = found;
-      consistency = fit;
-    }
-    return is_found && !is_ambiguous;
+  /// Heading as predicted at first, all around now and then.
+  [[nodiscard]] SearchWindow relocation_window() const {
+    if (doubtful_scans_ == 0) return {slipped_m, slipped_m, relocation_rad};
+    const bool is_wide = doubtful_scans_ % wide_search_every == 0;
+    return {carried_m, carried_m, is_wide ? std::numbers::pi : relocation_rad};
   }
 
   template <class MapType>
@@ -350,13 +342,10 @@ class BasicDvlEkf {
   static constexpr std::size_t reference_stride = 4;  ///< beams
   static constexpr int wide_search_every = 5;         ///< doubtful scans
   static constexpr int unusual_search_every = 10;     ///< scans
-  static constexpr double share_memory_scans = 50;
   static constexpr double carried_m = 3.5;  ///< how far a robot may have been carried off
   static constexpr double slipped_m = 1.2;  ///< how far its wheels may have slipped
   static constexpr double relocation_rad = 0.6;
   static constexpr int relocation_iterations = 8;
-  static constexpr double relocation_share_min = 0.8;      ///< as good as a usual scan
-  static constexpr double relocation_share_margin = 0.12;  ///< two places this near to each other are equally good
   static constexpr double ray_search_m = 1.0;  ///< how far behind a reading its cell may lie
 
   Params params_;
@@ -367,9 +356,9 @@ class BasicDvlEkf {
   MapDrift drift_;
   Compass compass_;
   CorrelativeSearch<Dim> search_;
+  Relocation relocation_;
   int doubtful_scans_ = 0;  ///< in a row
   int scans_since_search_ = 0;
-  double mean_share_ = 0.8;  ///< of the beams that agree with the map, over trusted scans
   int scans_held_ = 0;
 };
 

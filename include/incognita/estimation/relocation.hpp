@@ -1,0 +1,100 @@
+/// Another place for a robot whose scan does not fit the map where it believes to be.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "incognita/core/error.hpp"
+#include "incognita/estimation/correlative_search.hpp"
+#include "incognita/estimation/registration.hpp"
+#include "incognita/estimation/scan_consistency.hpp"
+#include "incognita/geometry/vector.hpp"
+
+namespace incognita {
+
+/// Parameters of Relocation.
+struct RelocationParams {
+  double share_min = 0.8;        ///< of the judged beams that must agree with the map at a new place, in (0, 1]
+  double share_margin = 0.12;    ///< two places whose shares are this near to each other are equally good, > 0
+  /// A new place's residual is at most so many times the usual one, or no larger than the old place's: among rows of equal
+  /// rooms the share alone has moved a robot that was right into a room that was not.
+  double residual_ratio_max = 1.5;
+  double separation_m = 0.3;     ///< places further apart than this are different ones, >= 0
+  double memory_scans = 50;      ///< over how many scans it is learned what is usual, >= 1
+
+  /// Throws std::invalid_argument for values outside of their bounds.
+  void validate() const {
+    require(share_min > 0.0 && share_min <= 1.0, "RelocationParams", "share_min", share_min, "in (0, 1]");
+    require_positive("RelocationParams", "share_margin", share_margin);
+    require_positive("RelocationParams", "residual_ratio_max", residual_ratio_max);
+    require_non_negative("RelocationParams", "separation_m", separation_m);
+    require(memory_scans >= 1.0, "RelocationParams", "memory_scans", memory_scans, ">= 1");
+  }
+};
+
+/// How well a scan fits a map at a place: what registration made of it there, and what the belief says to that.
+struct ScanFit {
+  Registration registration;
+  ScanConsistency consistency;
+};
+
+/// Learns how well scans usually fit, and judges by that whether a robot is better believed to be somewhere else. Fits with
+/// fewer judged beams than `judged_min` say nothing. Not thread safe.
+class Relocation {
+ public:
+  /// Throws std::invalid_argument for parameters outside of their bounds.
+  explicit Relocation(const RelocationParams& params = {}) : params_(params) { params_.validate(); }
+
+  /// Learns from the fit of a scan that was trusted.
+  void add_usual(const ScanFit& fit, std::size_t judged_min) {
+    if (fit.consistency.judged() < judged_min || fit.registration.associations == 0) return;
+    usual_share_ += (fit.consistency.share() - usual_share_) / params_.memory_scans;
+    usual_residual_m_ += (fit.registration.residual_rms_m - usual_residual_m_) / params_.memory_scans;
+  }
+
+  /// Whether fewer of a scan's beams agree with the map than usually do: a corridor looks much the same a metre further, so
+  /// the map need not contradict a scan that was taken there.
+  [[nodiscard]] bool is_unusual(const ScanConsistency& seen, std::size_t judged_min) const {
+    return seen.judged() >= judged_min && seen.share() < usual_share_ - params_.share_margin;
+  }
+
+  /// The best of the candidates' fits, if it is better than `current`: more of the beams agree, by a margin and by what is
+  /// usual (when the map contradicts the current place: by share_min), and residuals are as small. None when there is
+  /// none, or when one elsewhere is as good. fit_at(candidate) gives a candidate's fit.
+  template <class FitAt>
+  [[nodiscard]] std::optional<ScanFit> better(const std::vector<SearchCandidate>& candidates, const ScanFit& current,
+                                              bool is_contradicted, std::size_t judged_min, FitAt&& fit_at) const {
+    const double share_min =
+        std::max(is_contradicted ? params_.share_min : usual_share_, current.consistency.share() + params_.share_margin);
+    const double residual_max_m =
+        std::max(current.registration.residual_rms_m, params_.residual_ratio_max * usual_residual_m_);
+    std::vector<ScanFit> fits;
+    std::size_t best = 0;
+    for (const SearchCandidate& candidate : candidates) {
+      const ScanFit fit = fit_at(candidate);
+      if (fit.registration.associations == 0 || fit.registration.residual_rms_m > residual_max_m) continue;
+      if (fit.consistency.agreeing < judged_min || fit.consistency.share() < share_min) continue;
+      fits.push_back(fit);
+      if (fit.consistency.share() > fits[best].consistency.share()) best = fits.size() - 1;
+    }
+    for (const ScanFit& fit : fits) {
+      const bool is_as_good = fit.consistency.share() > fits[best].consistency.share() - params_.share_margin;
+      if (is_as_good && is_elsewhere(fit, fits[best])) return std::nullopt;
+    }
+    return fits.empty() ? std::nullopt : std::optional<ScanFit>(fits[best]);
+  }
+
+ private:
+  [[nodiscard]] bool is_elsewhere(const ScanFit& one, const ScanFit& other) const {
+    const Eigen::Vector2d other_m = other.registration.belief.pose.position();
+    return distance(one.registration.belief.pose.position(), other_m) > params_.separation_m;
+  }
+
+  RelocationParams params_;
+  double usual_share_ = 0.8;
+  double usual_residual_m_ = 0.02;
+};
+
+}  // namespace incognita

@@ -1,0 +1,91 @@
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "incognita/estimation/relocation.hpp"
+
+using namespace incognita;
+
+namespace {
+
+constexpr std::size_t judged_min = 12;
+
+ScanFit fit_at(double x_m, std::size_t agreeing, std::size_t contradicting, double residual_m) {
+  ScanFit fit;
+  fit.registration.belief.pose = {x_m, 0.0, 0.0};
+  fit.registration.associations = 200;
+  fit.registration.residual_rms_m = residual_m;
+  fit.consistency = {agreeing, contradicting};
+  return fit;
+}
+
+/// What `relocation` makes of a scan with these fits, one a candidate.
+std::optional<ScanFit> better(const Relocation& relocation, const ScanFit& current, bool is_contradicted,
+                              const std::vector<ScanFit>& fits) {
+  std::vector<SearchCandidate> candidates(fits.size());
+  for (std::size_t i = 0; i < fits.size(); ++i) candidates[i].pose.x_m = static_cast<double>(i);
+  return relocation.better(candidates, current, is_contradicted, judged_min, [&](const SearchCandidate& candidate) {
+    return fits[static_cast<std::size_t>(candidate.pose.x_m)];
+  });
+}
+
+/// Has seen many scans of which 90 % of the judged beams agreed, with residuals of 0.01 m.
+Relocation used() {
+  Relocation relocation;
+  for (int scan = 0; scan < 500; ++scan) relocation.add_usual(fit_at(0.0, 90, 10, 0.01), judged_min);
+  return relocation;
+}
+
+}  // namespace
+
+TEST_CASE("What is unusual follows from what was usual", "[estimation]") {
+  const Relocation relocation = used();
+  CHECK(relocation.is_unusual({70, 30}, judged_min));
+  CHECK_FALSE(relocation.is_unusual({80, 20}, judged_min));
+  CHECK_FALSE(relocation.is_unusual({5, 6}, judged_min));
+  // Scans that say little of the map change nothing.
+  Relocation same = relocation;
+  for (int scan = 0; scan < 500; ++scan) same.add_usual(fit_at(0.0, 1, 10, 0.5), judged_min);
+  CHECK_FALSE(same.is_unusual({80, 20}, judged_min));
+  CHECK(same.is_unusual({70, 30}, judged_min));
+}
+
+TEST_CASE("A robot is believed elsewhere only where its scan fits clearly better", "[estimation]") {
+  const Relocation relocation = used();
+  const ScanFit current = fit_at(0.0, 70, 30, 0.03);
+  const auto found = better(relocation, current, false, {fit_at(0.5, 50, 50, 0.01), fit_at(1.0, 95, 5, 0.01)});
+  REQUIRE(found);
+  CHECK(found->registration.belief.pose.x_m == 1.0);
+
+  CHECK_FALSE(better(relocation, current, false, {}));
+  CHECK_FALSE(better(relocation, current, false, {fit_at(1.0, 80, 20, 0.01)}));  // not as good as is usual
+  CHECK_FALSE(better(relocation, fit_at(0.0, 86, 14, 0.01), false, {fit_at(1.0, 95, 5, 0.01)}));  // by a margin
+  CHECK_FALSE(better(relocation, current, false, {fit_at(1.0, 10, 0, 0.01)}));   // of hardly any beams
+  CHECK_FALSE(better(relocation, current, false, {fit_at(1.0, 95, 5, 0.05)}));   // with larger residuals
+  CHECK_FALSE(better(relocation, fit_at(0.0, 70, 30, 0.009), false, {fit_at(1.0, 95, 5, 0.019)}));
+}
+
+TEST_CASE("Of two places that are as good as each other none is taken", "[estimation]") {
+  const Relocation relocation = used();
+  const ScanFit current = fit_at(0.0, 70, 30, 0.03);
+  CHECK_FALSE(better(relocation, current, false, {fit_at(1.0, 95, 5, 0.01), fit_at(-1.0, 93, 7, 0.01)}));
+  CHECK(better(relocation, current, false, {fit_at(1.0, 95, 5, 0.01), fit_at(1.1, 93, 7, 0.01)}));  // one place
+}
+
+TEST_CASE("A contradicted place is left for one that is less than usual", "[estimation]") {
+  const Relocation relocation = used();
+  const ScanFit current = fit_at(0.0, 40, 60, 0.03);
+  CHECK(better(relocation, current, true, {fit_at(1.0, 85, 15, 0.01)}));
+  CHECK_FALSE(better(relocation, current, false, {fit_at(1.0, 85, 15, 0.01)}));
+  CHECK_FALSE(better(relocation, current, true, {fit_at(1.0, 75, 25, 0.01)}));
+}
+
+TEST_CASE("Parameters of a relocation out of bounds are refused by name", "[estimation]") {
+  RelocationParams params;
+  params.share_margin = -0.25;
+  CHECK_THROWS_WITH(Relocation(params), Catch::Contains("share_margin") && Catch::Contains("-0.25"));
+  params = {};
+  params.share_min = 1.5;
+  CHECK_THROWS_WITH(Relocation(params), Catch::Contains("share_min") && Catch::Contains("1.5"));
+}
