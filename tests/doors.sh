@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Each room's door includes every header of the room, and incognita.hpp every door but io and testing.
+# Each room's door includes every header of the room, and incognita.hpp every door but those of io,
+# loops and testing.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../include"
 failures=0
@@ -12,7 +13,7 @@ for folder in incognita/*/; do
   while read -r header; do
     grep -qF "#include \"$header\"" "$door" || missing "$door" "$header"
   done < <(find "$folder" -name '*.hpp')
-  case $door in incognita/io.hpp | incognita/testing.hpp) continue ;; esac
+  case $door in incognita/io.hpp | incognita/loops.hpp | incognita/testing.hpp) continue ;; esac
   grep -qF "#include \"$door\"" incognita/incognita.hpp || missing incognita/incognita.hpp "$door"
 done
 exit $((failures > 0))

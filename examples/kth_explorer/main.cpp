@@ -15,6 +15,7 @@
 #include "incognita/estimation/dead_reckoning.hpp"
 #include "incognita/io/floor_plan.hpp"
 #include "incognita/io/kth_xml.hpp"
+#include "incognita/loops/loop_closure.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/simulation/start.hpp"
 #include "kth_explorer/embedded_floor_plan.hpp"
@@ -93,6 +94,7 @@ template <class Filter>
 Filter make_filter(const Options& options) {
   typename Filter::Params params;
   if constexpr (requires { params.uses_compass; }) params.uses_compass = options.compass == "on";
+  if constexpr (requires { params.loops.closes_loops; }) params.loops.closes_loops = options.loops == "on";
   return Filter(params);
 }
 
@@ -139,10 +141,10 @@ void run(const Options& options) {
   const double range_max_m = simulator.scan().range_max_m();
   const bool coupled = options.filter == "dvl-ekf";
   if (options.cells == "tbayes") {
-    coupled ? explore<TBayes, DvlEkf>(options, simulator, params.robot, range_max_m, output)
+    coupled ? explore<TBayes, LoopClosingDvlEkf>(options, simulator, params.robot, range_max_m, output)
             : explore<TBayes, DeadReckoning>(options, simulator, params.robot, range_max_m, output);
   } else {
-    coupled ? explore<LogOdds, DvlEkf>(options, simulator, params.robot, range_max_m, output)
+    coupled ? explore<LogOdds, LoopClosingDvlEkf>(options, simulator, params.robot, range_max_m, output)
             : explore<LogOdds, DeadReckoning>(options, simulator, params.robot, range_max_m, output);
   }
 }

@@ -22,6 +22,7 @@ struct Options {
   double alpha = 1.0;
   std::string filter = "dvl-ekf";
   std::string compass = "on";
+  std::string loops = "on";
   std::string ranking = "gain-per-metre";
   double duration_s = 1800.0;
   std::uint64_t seed = 1;
@@ -60,6 +61,9 @@ struct Options {
       ->check(CLI::IsMember({"dvl-ekf", "dead-reckoning"}))
       ->capture_default_str();
   app.add_option("--compass", options.compass, "whether the filter takes headings from walls that stand at right angles")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  app.add_option("--loops", options.loops, "whether the map is put right when the robot returns to where it was")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   app.add_option("--ranking", options.ranking, "candidates by information gain alone (as the paper) or by metre of path")

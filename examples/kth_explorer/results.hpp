@@ -70,6 +70,8 @@ class CsvText {
   json["entropy"] = options.entropy;
   json["alpha"] = options.entropy == "shannon" ? nlohmann::ordered_json() : nlohmann::ordered_json(options.alpha);
   json["filter"] = options.filter;
+  json["compass"] = options.compass;
+  json["loops"] = options.loops;
   json["ranking"] = options.ranking;
   json["resolution_m"] = options.resolution_m;
   json["duration_s"] = record.duration_s;

@@ -49,11 +49,11 @@ void run(const Options& options) {
 
   MapParams map_params;
   map_params.resolution_m = options.resolution_m;
-  Map<TBayes> map(map_params);
-  DvlEkf::Params filter_params = log_filter_params();
+  LoopClosingDvlEkf::Params filter_params = log_filter_params();
   filter_params.start.pose = Pose2{0.0, 0.0, wrap_angle_rad(options.frame_angle_rad)} * log.T_robot_laser;
-  DvlEkf filter(filter_params);
-  const MappingRecord record = map_log(log, options.log_file, map, filter);
+  filter_params.loops.closes_loops = options.loops == "on";
+  LogSlam slam{LoopClosingDvlEkf(filter_params), Map<>(map_params)};
+  const MappingRecord record = map_log(log, options.log_file, slam);
 
   Evaluation evaluation;
   if (!relations.empty()) {
@@ -73,8 +73,8 @@ void run(const Options& options) {
   write_tum(output.staged("trajectory_odometry.tum"), record.odometry);
   if (evaluation.reference)
     write_tum(output.staged("trajectory_reference.tum"), evaluation.reference->reference);
-  examples::write_map(output.staged("map.yaml"), map, thresholds);
-  draw_overview(output.staged("overview.png"), map, record, evaluation, thresholds);
+  examples::write_map(output.staged("map.yaml"), slam.map(), thresholds);
+  draw_overview(output.staged("overview.png"), slam.map(), record, evaluation, thresholds);
   output.publish();
   if (!options.quiet) print_table(metrics, output.path());
 }

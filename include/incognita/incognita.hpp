@@ -1,4 +1,5 @@
-/// Everything that needs Eigen alone: all rooms but io/ (libraries of its own) and testing/ (for tests).
+/// Everything that needs Eigen alone: all rooms but io/ (libraries of its own), loops/ (costs time to
+/// compile) and testing/ (for tests).
 #pragma once
 
 #include "incognita/core.hpp"

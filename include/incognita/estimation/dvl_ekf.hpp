@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "incognita/estimation/compass.hpp"
@@ -20,14 +22,26 @@
 
 namespace incognita {
 
+/// Loops that are not closed.
+struct NoLoops {
+  struct Params {
+    void validate() const {}
+  };
+  NoLoops() = default;
+  explicit NoLoops(const Params& /*params*/) {}
+};
+
 /// Prediction by (7); correction by the tempered likelihoods of (9) with R_x of (10). Form::registration (the default)
 /// corrects position and heading against sub-cell surfaces. Form::ray is Lemma 4.1 to the letter, hits associated by
 /// casting the beam in the belief: it does not observe the heading and drifts (reading: 1.5 m and more), so it is there
 /// for comparison. Decisions are predicted with the ray form, whichever form estimates.
-/// A template, so that who includes this header and does not use it does not pay for it; planar so far.
-template <int Dim = 2>
+/// A template, so that who includes this header and does not use it does not pay for it; planar so far. Loops is what it does
+/// when the robot returns to where it was: NoLoops, nothing beyond registering to the oldest surfaces; LoopClosure
+/// moves the map, see loops/.
+template <int Dim = 2, class Loops = NoLoops>
 class BasicDvlEkf {
   static_assert(Dim == 2, "the filter is planar");
+  static constexpr bool closes_loops = !std::is_same_v<Loops, NoLoops>;
 
  public:
   enum class Form { registration, ray };
@@ -50,6 +64,7 @@ class BasicDvlEkf {
     RegistrationParams registration;
     typename SurfaceMap<Dim>::Params surfaces;
     MapDrift::Params drift;
+    typename Loops::Params loops;
     /// Whether headings are also measured by the building's dominant directions, where it has them.
     bool uses_compass = true;
     CompassParams compass;
@@ -79,7 +94,8 @@ class BasicDvlEkf {
         drift_(params.drift),
         compass_(params.compass),
         search_(params.search),
-        relocation_(params.relocation) {
+        relocation_(params.relocation),
+        loops_(params.loops) {
     require_belief("DvlEkf", params.start);
     require_positive("DvlEkf", "noise.position_m_per_sqrt_s", params.noise.position_m_per_sqrt_s);
     require_positive("DvlEkf", "noise.yaw_rad_per_sqrt_s", params.noise.yaw_rad_per_sqrt_s);
@@ -104,6 +120,9 @@ class BasicDvlEkf {
   /// The part of belief() that is the drift of the map around; the rest is the uncertainty in that map.
   [[nodiscard]] const MapDrift& drift() const { return drift_; }
 
+  [[nodiscard]] const Loops& loops() const { return loops_; }
+  [[nodiscard]] Loops& loops() { return loops_; }
+
   /// False while the start pose is held.
   [[nodiscard]] bool is_ready() const { return scans_held_ >= params_.start_scans_held; }
 
@@ -111,6 +130,7 @@ class BasicDvlEkf {
   void predict(const Pose2& increment, double duration_s) {
     require_motion("DvlEkf::predict", increment, duration_s);
     believe(propagate({belief_.pose, in_map_}, increment, params_.noise, duration_s));
+    if constexpr (closes_loops) loops_.add_step(params_.noise.covariance(duration_s));
     if (!is_ready()) driven_ = propagate(driven_, increment, params_.noise, duration_s);
   }
 
@@ -134,6 +154,7 @@ class BasicDvlEkf {
   void learn(const Scan<Dim>& scan) {
     if (params_.form != Form::registration) return;
     const Eigen::Matrix2d rotation = belief_.pose.rotation();
+    const std::size_t pieces_before = drift_.size();
     const int piece = drift_.piece_of_scan(in_map_, belief_.pose.position());
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
       if (scan.reading(beam) != Reading::hit) continue;
@@ -142,6 +163,12 @@ class BasicDvlEkf {
                     [this](int of, const Eigen::Vector2d& at_m) { return drift_.shift_m(of, at_m); });
     }
     surfaces_.refresh_normals();
+    if constexpr (closes_loops) {
+      loops_.keep(scan, belief_, piece, drift_);
+      if (drift_.size() == pieces_before) return;
+      const auto moved = loops_.add_keyframe({scan, belief_.pose, heading_}, params_.registration, surfaces_, drift_);
+      believe({moved_pose(belief_.pose, moved), in_map_});
+    }
   }
 
   /// A heading measured directly (a compass, the paper's orientation aid of 0.01 rad): a scalar update.
@@ -217,8 +244,8 @@ class BasicDvlEkf {
   }
 
   void correct_by_compass(const Scan<Dim>& scan) {
-    const auto heading = compass_.measure(scan, belief_.pose.yaw_rad);
-    if (heading) correct_heading(heading->yaw_rad, std::sqrt(heading->variance_rad2));
+    heading_ = compass_.measure(scan, belief_.pose.yaw_rad);
+    if (heading_) correct_heading(heading_->yaw_rad, std::sqrt(heading_->variance_rad2));
   }
 
   /// Registers to the oldest surfaces in sight from now on. A few beams are enough to tell which.
@@ -247,6 +274,7 @@ class BasicDvlEkf {
       const auto& candidates = search_.find(scan, surfaces_, predicted, params_.search_window);
       if (!candidates.empty()) believe({candidates.front().pose, in_map_});
     }
+    heading_.reset();
     if (params_.uses_compass && doubtful_scans_ == 0) correct_by_compass(scan);
     choose_reference(scan, surface_belief);
     const auto fit_from = [&](const PoseBelief& start, const RegistrationParams& params, std::size_t beams_max) {
@@ -274,7 +302,10 @@ class BasicDvlEkf {
             [&](const SearchCandidate& candidate) {
               return fit_from({candidate.pose, diagonal_covariance(0.01, 0.01, 0.0025)}, params, scan.size());
             });
-        if (found) fit = *found;
+        if (found) {
+          if constexpr (closes_loops) report_jump(predicted.pose, found->registration.belief);
+          fit = *found;
+        }
         report.relocated = found.has_value();
         report.trusted = report.trusted || report.relocated;
       }
@@ -299,6 +330,21 @@ class BasicDvlEkf {
   [[nodiscard]] bool is_unusual(const ScanConsistency& consistency) const {
     return !params_.searches_each_scan && scans_since_search_ >= unusual_search_every &&
            relocation_.is_unusual(consistency, params_.consistency.beams_min);
+  }
+
+  /// The robot was found elsewhere. If the map may have drifted so far, it has; else the robot slipped or was carried off,
+  /// which says nothing of the map.
+  void report_jump(const Pose2& from, const PoseBelief& to) {
+    Eigen::Matrix3d covariance = to.covariance;
+    add_to(covariance, belief_.covariance);
+    const Eigen::Vector3d off(to.pose.x_m - from.x_m, to.pose.y_m - from.y_m,
+                              angle_between_rad(from.yaw_rad, to.pose.yaw_rad));
+    const bool may_be_drift = off.dot(covariance.inverse() * off) < jump_mahalanobis2_max;
+    if (may_be_drift) {
+      loops_.add_step(to.covariance, twist_between(from, to.pose));
+    } else {
+      loops_.add_step(diagonal_covariance(carried_m * carried_m, carried_m * carried_m, std::numbers::pi));
+    }
   }
 
   /// Heading as predicted at first, all around now and then.
@@ -346,6 +392,7 @@ class BasicDvlEkf {
   static constexpr double slipped_m = 1.2;  ///< how far its wheels may have slipped
   static constexpr double relocation_rad = 0.6;
   static constexpr int relocation_iterations = 8;
+  static constexpr double jump_mahalanobis2_max = 11.3;  ///< what drift exceeds once in a hundred times, in three dimensions
   static constexpr double ray_search_m = 1.0;  ///< how far behind a reading its cell may lie
 
   Params params_;
@@ -357,6 +404,8 @@ class BasicDvlEkf {
   Compass compass_;
   CorrelativeSearch<Dim> search_;
   Relocation relocation_;
+  Loops loops_;
+  std::optional<Compass::Heading> heading_;  ///< by the compass, of the last scan
   int doubtful_scans_ = 0;  ///< in a row
   int scans_since_search_ = 0;
   int scans_held_ = 0;

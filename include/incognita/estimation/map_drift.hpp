@@ -7,12 +7,31 @@
 
 #include <Eigen/Core>
 
+#include "incognita/core/angles.hpp"
 #include "incognita/core/error.hpp"
 #include "incognita/estimation/pose_belief.hpp"
 #include "incognita/estimation/yaw_update.hpp"
+#include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/vector.hpp"
 
 namespace incognita {
+
+/// How far a twist (v_x, v_y, omega) about the map's origin, small, moves a point.
+[[nodiscard]] inline Eigen::Vector2d twist_shift_m(const Eigen::Vector3d& twist, const Eigen::Vector2d& at_m) {
+  return {twist[0] - twist[2] * at_m[1], twist[1] + twist[2] * at_m[0]};
+}
+
+/// The pose that a small twist about the map's origin moves `pose` to.
+[[nodiscard]] inline Pose2 moved_pose(const Pose2& pose, const Eigen::Vector3d& twist) {
+  const Eigen::Vector2d position_m = sum(pose.position(), twist_shift_m(twist, pose.position()));
+  return {position_m[0], position_m[1], wrap_angle_rad(pose.yaw_rad + twist[2])};
+}
+
+/// The twist about the map's origin that moves one pose to another near it: the inverse of moved_pose.
+[[nodiscard]] inline Eigen::Vector3d twist_between(const Pose2& from, const Pose2& to) {
+  const double turn_rad = angle_between_rad(from.yaw_rad, to.yaw_rad);
+  return {to.x_m - from.x_m + turn_rad * from.y_m, to.y_m - from.y_m - turn_rad * from.x_m, turn_rad};
+}
 
 /// Surfaces that are measured from a wrong pose are wrong by that pose's error, and whoever registers to them later cannot
 /// do better. The error is a twist (v_x, v_y, omega) about the map's origin: the robot's motion does not change it, a
@@ -32,7 +51,7 @@ class MapDrift {
     /// The reference is the piece below which this share of the matched beams falls, by drift: the oldest in sight, but not
     /// one that a few wrong matches suggest. In [0, 1].
     double reference_quantile = 0.1;
-    int scans_per_piece = 10;  ///< >= 1; memory is 104 bytes a piece
+    int scans_per_piece = 10;  ///< >= 1; memory is 128 bytes a piece
 
     /// Throws std::invalid_argument for values outside of their bounds.
     void validate() const {
@@ -72,10 +91,12 @@ class MapDrift {
     if (scans_++ % params_.scans_per_piece == 0) {
       Eigen::Matrix3d born = reference_.drift;
       add_to(born, carried_covariance(covariance, {-position_m[0], -position_m[1]}), params_.inherited_share);
-      pieces_.push_back({born, Eigen::Vector3d(0.0, 0.0, 0.0), born(2, 2)});
+      pieces_.push_back({born, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, born(2, 2)});
     }
     return static_cast<int>(pieces_.size()) - 1;
   }
+
+  [[nodiscard]] int scans_per_piece() const { return params_.scans_per_piece; }
 
   /// The number of pieces.
   [[nodiscard]] std::size_t size() const { return pieces_.size(); }
@@ -104,10 +125,21 @@ class MapDrift {
     return added;
   }
 
-  /// How far a piece is shifted, at a point of the map that is not far from it.
+  /// How far a piece is shifted against where its surfaces are stored, at a point of the map that is not far from it.
   [[nodiscard]] Eigen::Vector2d shift_m(int piece, const Eigen::Vector2d& at_m) const {
-    const Eigen::Vector3d& twist = pieces_[static_cast<std::size_t>(piece)].twist;
-    return {twist[0] - twist[2] * at_m[1], twist[1] + twist[2] * at_m[0]};
+    const Piece& of = pieces_[static_cast<std::size_t>(piece)];
+    return twist_shift_m(difference(of.twist, of.settled), at_m);
+  }
+
+  /// How far a piece was moved since it was born: a twist about the map's origin.
+  [[nodiscard]] const Eigen::Vector3d& twist(int piece) const { return pieces_[static_cast<std::size_t>(piece)].twist; }
+
+  /// Moves a piece to where it is now known to be. What is known of its drift stays: it was rather too much before.
+  void set_twist(int piece, const Eigen::Vector3d& twist) { pieces_[static_cast<std::size_t>(piece)].twist = twist; }
+
+  /// All surfaces have been moved by shift_m of their piece and are stored where they are: shifts begin anew at 0.
+  void settle() {
+    for (Piece& piece : pieces_) piece.settled = piece.twist;
   }
 
   /// The turn of the reference was measured: it is `turn_rad` more than believed, with this variance. Turns the pieces that
@@ -152,7 +184,8 @@ class MapDrift {
  private:
   struct Piece {
     Eigen::Matrix3d drift;
-    Eigen::Vector3d twist;  // how far it was moved since it was born
+    Eigen::Vector3d twist;    // how far it was moved since it was born ...
+    Eigen::Vector3d settled;  // ... and how much of that its stored surfaces have taken part in
     double turn_at_birth_rad2;
   };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -86,13 +87,7 @@ class SurfaceMap {
   template <class Shift>
   void add(const Point<Dim>& point_m, const Point<Dim>& direction, int piece, Shift&& shift_m) {
     const Index<Dim> index = slots_.lattice().index_of(point_m);
-    if (!slots_.contains(index)) slots_.grow_to_include(box_of_cell<Dim>(index));
-    std::int32_t& slot = slots_[slots_.offset_of(index)];
-    if (slot < 0) {
-      slot = static_cast<std::int32_t>(cells_.size());
-      cells_.emplace_back();
-    }
-    Cell& cell = cells_[static_cast<std::size_t>(slot)];
+    Cell& cell = cell_at(index);
     Surface<Dim>* surface = side_of(cell, direction);
     if (surface == nullptr || surface->count >= params_.count_max) return;
     if (surface->count == 0) {
@@ -105,6 +100,24 @@ class SurfaceMap {
 
   void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
     add(point_m, direction, 0, [](int /*piece*/, const Point<Dim>& /*at*/) { return Point<Dim>(Point<Dim>::Zero()); });
+  }
+
+  /// Moves every surface by shift_m(its piece, its mean), into the cell where it then lies, and recomputes all normals. A
+  /// surface that finds no side free in that cell is left out. Shifts must be small against the distance to the lattice's
+  /// reach, and turn no surface noticeably. O(surfaces).
+  template <class Shift>
+  void rearrange(Shift&& shift_m) {
+    SurfaceMap moved(params_);
+    moved.slots_.grow_to_include(slots_.box());
+    for (const Cell& cell : cells_) {
+      for (Surface<Dim> surface : cell.sides) {
+        if (surface.count == 0) break;
+        surface.mean_m = sum(surface.mean_m, Point<Dim>(shift_m(surface.piece, surface.mean_m)));
+        moved.place(surface);
+      }
+    }
+    moved.refresh_normals();
+    *this = std::move(moved);
   }
 
   /// Recomputes the normals of the surfaces that grew since the last call.
@@ -158,6 +171,29 @@ class SurfaceMap {
     Index<Dim> index;
     int side;
   };
+
+  /// The cell, made if it is not there.
+  [[nodiscard]] Cell& cell_at(const Index<Dim>& index) {
+    if (!slots_.contains(index)) slots_.grow_to_include(box_of_cell<Dim>(index));
+    std::int32_t& slot = slots_[slots_.offset_of(index)];
+    if (slot < 0) {
+      slot = static_cast<std::int32_t>(cells_.size());
+      cells_.emplace_back();
+    }
+    return cells_[static_cast<std::size_t>(slot)];
+  }
+
+  void place(const Surface<Dim>& surface) {
+    const Index<Dim> index = slots_.lattice().index_of(surface.mean_m);
+    Cell& cell = cell_at(index);
+    for (int side = 0; side < sides_max; ++side) {
+      if (cell.sides[static_cast<std::size_t>(side)].count > 0) continue;
+      cell.sides[static_cast<std::size_t>(side)] = surface;
+      changed_.push_back({index, side});
+      ++size_;
+      return;
+    }
+  }
 
   template <class Visit>
   void for_each_around(const Index<Dim>& center, Visit&& visit) const {

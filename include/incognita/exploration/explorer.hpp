@@ -13,6 +13,7 @@
 
 #include "incognita/entropy/behavioral.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
+#include "incognita/estimation/slam.hpp"
 #include "incognita/exploration/candidate.hpp"
 #include "incognita/exploration/set_aside.hpp"
 #include "incognita/exploration/stop_reason.hpp"
@@ -103,44 +104,42 @@ class Explorer {
   explicit Explorer(const ExplorerParams& params = {}, MapType map = MapType{}, const Entropy& entropy = Entropy{},
                     Filter filter = Filter{})
       : params_(params),
-        map_(std::move(map)),
+        slam_(std::move(filter), std::move(map)),
         entropy_(entropy),
-        filter_(std::move(filter)),
         set_aside_(params.set_aside),
-        reached_(map_.grid().box()) {
+        reached_(slam_.map().grid().box()) {
     params_.validate();
   }
 
   /// The robot has moved by `increment`, in its own frame, within duration_s. Throws std::invalid_argument unless the
   /// increment is finite and the duration finite and >= 0; nothing has then changed.
   void move(const Pose2& increment, double duration_s) {
-    filter_.predict(increment, duration_s);
+    slam_.move(increment, duration_s);
     time_s_ += duration_s;
   }
 
-  /// A scan was taken: corrects the pose by the map, then the map by the scan; a scan that the filter does not trust is
-  /// ignored (see correction()). See Map::update for bad scans; when it
-  /// throws (a pose beyond the lattice's reach), the pose has been corrected and the map is as it was.
+  /// A scan was taken: corrects the pose by the map, then the map by the scan, see Slam::observe; correction() says what came
+  /// of it.
   ScanReport observe(const Scan<2>& scan) {
-    correction_ = filter_.correct(scan, map_);
+    const SlamReport report = slam_.observe(scan);
+    correction_ = report.correction;
     if (!correction_.lost) found_s_ = time_s_;
     if (correction_.relocated) must_decide_ = true;
-    if (!correction_.trusted) return {0, scan.size()};
-    const ScanReport report = map_.update(scan, filter_.belief().pose, filter_.belief().covariance);
-    filter_.learn(scan);
-    reached_ = enclosing_box(reached_, cells_in_reach(map_.lattice(), scan, filter_.belief().pose, map_.hit_push_m()));
-    extend_trail();
-    return report;
+    if (!correction_.trusted) return report.scan;
+    if (report.is_redrawn) retrace();
+    reached_ = enclosing_box(reached_, cells_in_reach(map().lattice(), scan, belief().pose, map().hit_push_m()));
+    extend_trail(belief().pose.position());
+    return report.scan;
   }
 
   /// Decides where to go if there is reason to; cheap when there is none. Returns whether it was decided anew.
   bool decide() {
     if (decision_.stopped) return false;
-    if (position_sigma_m(filter_.belief().covariance) > params_.position_sigma_max_m) return stop(StopReason::lost);
+    if (position_sigma_m(belief().covariance) > params_.position_sigma_max_m) return stop(StopReason::lost);
     if (time_s_ - found_s_ > params_.lost_max_s) return stop(StopReason::lost);
     if (!correction_.trusted) return false;
     if (time_s_ >= params_.duration_max_s) return stop(StopReason::out_of_time);
-    if (trail_.empty() || !filter_.is_ready()) return false;
+    if (trail_.empty() || !filter().is_ready()) return false;
     if (decision_.chosen() != nullptr && !goal_is_done()) return false;
     return choose();
   }
@@ -148,7 +147,7 @@ class Explorer {
   /// The speeds that follow the chosen path, slowed down before what `scan`, the latest, shows. Zero without a goal.
   [[nodiscard]] Twist2 command(const Scan<2>& scan) {
     if (decision_.chosen() == nullptr || correction_.lost) return {};
-    const Pose2& pose = filter_.belief().pose;
+    const Pose2& pose = belief().pose;
     if (retreat_) {
       if (!retreat_->is_over(pose)) return retreat_->command(pose, scan);
       retreat_.reset();
@@ -179,9 +178,9 @@ class Explorer {
 
   [[nodiscard]] const std::optional<StopReason>& stopped() const { return decision_.stopped; }
   [[nodiscard]] const Decision& decision() const { return decision_; }
-  [[nodiscard]] const MapType& map() const { return map_; }
-  [[nodiscard]] const Filter& filter() const { return filter_; }
-  [[nodiscard]] const PoseBelief& belief() const { return filter_.belief(); }
+  [[nodiscard]] const MapType& map() const { return slam_.map(); }
+  [[nodiscard]] const Filter& filter() const { return slam_.filter(); }
+  [[nodiscard]] const PoseBelief& belief() const { return slam_.belief(); }
   [[nodiscard]] const CorrectionReport& correction() const { return correction_; }  ///< of the last scan
   [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }
   [[nodiscard]] const ExplorerParams& params() const { return params_; }
@@ -190,12 +189,21 @@ class Explorer {
  private:
   using Cell = typename MapType::CellType;
 
-  void extend_trail() {
-    const Eigen::Vector2d to = filter_.belief().pose.position();
-    const Eigen::Vector2d from = trail_.empty() ? to : map_.lattice().center_m(trail_.back());
-    traverse<2>(map_.lattice(), from, to, [&](const Index<2>& cell) {
+  void extend_trail(const Eigen::Vector2d& to) {
+    const Eigen::Vector2d from = trail_.empty() ? to : map().lattice().center_m(trail_.back());
+    traverse<2>(map().lattice(), from, to, [&](const Index<2>& cell) {
       if (trail_.empty() || !equal(trail_.back(), cell)) trail_.push_back(cell);
     });
+  }
+
+  /// The map was drawn again, so the trail must be, and what was decided may not hold in it.
+  void retrace() {
+    if constexpr (RedrawsMaps<Filter>) {
+      trail_.clear();
+      const Filter& filter = slam_.filter();
+      filter.loops().kept().for_each_pose(filter.drift(), [&](const Pose2& pose) { extend_trail(pose.position()); });
+      must_decide_ = true;
+    }
   }
 
   bool stop(StopReason reason) {
@@ -214,7 +222,7 @@ class Explorer {
     if (path_is_blocked()) return true;
     if (time_s_ < decision_.time_s + params_.decision_interval_s) return false;
     const auto is_known = [&](const Index<2>& index) {
-      return params_.thresholds.classify(map_.log_odds(index)) != Occupancy::unknown;
+      return params_.thresholds.classify(map().log_odds(index)) != Occupancy::unknown;
     };
     const auto known = std::count_if(goal.sought.begin(), goal.sought.end(), is_known);
     return static_cast<double>(known) >= params_.sought_known_share * static_cast<double>(goal.sought.size());
@@ -228,16 +236,16 @@ class Explorer {
   /// Whether a cell became occupied in the way of the rest of the path.
   [[nodiscard]] bool path_is_blocked() const {
     const auto is_occupied = [&](const Index<2>& index) {
-      return params_.thresholds.classify(map_.log_odds(index)) == Occupancy::occupied;
+      return params_.thresholds.classify(map().log_odds(index)) == Occupancy::occupied;
     };
     // Paths run between cell centres, so half a cell less than what the planner keeps is still clear.
-    const double radius_m = params_.travel.clearance_hard_m() - 0.5 * map_.resolution_m();
-    return !path_is_clear(follower_.path(), map_.lattice(), radius_m, is_occupied, follower_.progress_m());
+    const double radius_m = params_.travel.clearance_hard_m() - 0.5 * map().resolution_m();
+    return !path_is_clear(follower_.path(), map().lattice(), radius_m, is_occupied, follower_.progress_m());
   }
 
   bool choose() {
     reserve_reach();
-    const OccupancyGrid<2> occupancy = classify(map_, params_.thresholds);
+    const OccupancyGrid<2> occupancy = classify(map(), params_.thresholds);
     if (failed_) set_aside_.add(*failed_, occupancy);
     failed_.reset();
     const std::vector<Frontier<2>> frontiers = find_frontiers(occupancy, params_.frontier);
@@ -259,9 +267,9 @@ class Explorer {
   /// Prediction must not grow the map: every pose of a path lies in the map's box already, its beams within range of it.
   void reserve_reach() {
     const IndexBox<2>& box = reached_;
-    const Box<Eigen::Vector2d> reached_m{map_.lattice().center_m(box.lower), map_.lattice().center_m(box.upper)};
-    const double margin_m = map_.hit_push_m() + 2.0 * map_.resolution_m();
-    map_.reserve(reached_m.padded(params_.gain.range_max_m + margin_m));
+    const Box<Eigen::Vector2d> reached_m{map().lattice().center_m(box.lower), map().lattice().center_m(box.upper)};
+    const double margin_m = map().hit_push_m() + 2.0 * map().resolution_m();
+    slam_.reserve(reached_m.padded(params_.gain.range_max_m + margin_m));
   }
 
   /// A candidate for each frontier that can be seen from a reachable place, cheapest to reach first.
@@ -274,7 +282,7 @@ class Explorer {
       float& clearance = clearance_m[clearance_m.offset_of(cell)];
       clearance = std::max(clearance, static_cast<float>(params_.travel.clearance_hard_m()));
     }
-    const TravelCostField field(occupancy, clearance_m, filter_.belief().pose.position(), params_.travel);
+    const TravelCostField field(occupancy, clearance_m, belief().pose.position(), params_.travel);
     std::vector<std::pair<double, Candidate>> found;
     for (const Frontier<2>& frontier : frontiers) {
       const auto viewpoint = find_viewpoint(occupancy, field, frontier.representative, params_.viewpoint_radius_m);
@@ -299,7 +307,7 @@ class Explorer {
     while (informative.empty() && next < reachable.size()) {
       const std::size_t end = std::min(reachable.size(), next + static_cast<std::size_t>(params_.candidates_max));
       for (; next < end; ++next) informative.push_back(std::move(reachable[next]));
-      evaluate_candidates(map_, entropy_, filter_, informative, params_.gain, params_.threads, workspaces_);
+      evaluate_candidates(map(), entropy_, filter(), informative, params_.gain, params_.threads, workspaces_);
       std::erase_if(informative, [&](const Candidate& c) { return c.gain_nats < gain_min_nats; });
     }
     return informative;
@@ -312,9 +320,8 @@ class Explorer {
   }
 
   ExplorerParams params_;
-  MapType map_;
+  Slam<MapType, Filter> slam_;
   EntropyTable entropy_;
-  Filter filter_;
   SetAsidePlaces set_aside_;
   CorrectionReport correction_;
   Decision decision_;

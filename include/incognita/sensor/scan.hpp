@@ -85,6 +85,18 @@ class Scan {
   [[nodiscard]] double range_m(std::size_t beam) const { return ranges_m_[beam]; }
   void set_range_m(std::size_t beam, double range_m) { ranges_m_[beam] = range_m; }
 
+  /// Whether the other scan comes from beams with the same directions and ranges. O(beams).
+  [[nodiscard]] bool has_beams_of(const Scan& other) const {
+    if (size() != other.size() || beams_.range_min_m != other.beams_.range_min_m ||
+        beams_.range_max_m != other.beams_.range_max_m) {
+      return false;
+    }
+    for (std::size_t beam = 0; beam < size(); ++beam) {
+      if (!equal(direction(beam), other.direction(beam))) return false;
+    }
+    return true;
+  }
+
   [[nodiscard]] Reading reading(std::size_t beam) const {
     const double range_m = ranges_m_[beam];
     if (!(range_m > 0.0) || range_m < beams_.range_min_m || range_m > beams_.range_max_m) return Reading::invalid;

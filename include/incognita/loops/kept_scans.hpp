@@ -1,0 +1,100 @@
+/// Scans that are kept with the poses they were taken at, so that a map can be drawn again when poses turn out otherwise.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "incognita/core/error.hpp"
+#include "incognita/estimation/map_drift.hpp"
+#include "incognita/estimation/pose_belief.hpp"
+#include "incognita/geometry/vector.hpp"
+#include "incognita/sensor/scan.hpp"
+
+namespace incognita {
+
+/// Scans in the order of their time, each tied to a piece of the map (see MapDrift). Memory is bounded: when scans_max are
+/// held, every second one is let go, and of those that follow only as many are kept. 4 bytes a beam and 160 a scan.
+class KeptScans {
+ public:
+  /// Throws std::invalid_argument unless scans_max >= 2.
+  explicit KeptScans(int scans_max) : scans_max_(static_cast<std::size_t>(scans_max)) {
+    require(scans_max >= 2, "KeptScans", "scans_max", scans_max, ">= 2");
+  }
+
+  [[nodiscard]] std::size_t size() const { return kept_.size(); }
+
+  /// Keeps a scan taken at `belief`, while its piece was moved by `twist`; or not, when there have been too many.
+  void add(const Scan<2>& scan, const PoseBelief& belief, int piece, const Eigen::Vector3d& twist) {
+    if (seen_++ % stride_ != 0) return;
+    if (kept_.size() == scans_max_) thin_out();
+    if (patterns_.empty() || !patterns_.back().has_beams_of(scan)) patterns_.push_back(scan);
+    Kept kept{belief, twist, piece, patterns_.size() - 1, std::vector<float>(scan.size())};
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) kept.ranges_m[beam] = static_cast<float>(scan.range_m(beam));
+    kept_.push_back(std::move(kept));
+  }
+
+  /// Calls visit(scan, belief) for each scan, in the order of their time, with the pose that it is now known to have been
+  /// taken at and the covariance of then. Ranges are those taken, to the precision of a float. O(scans * beams).
+  template <class Visit>
+  void for_each(const MapDrift& drift, Visit&& visit) const {
+    if (kept_.empty()) return;
+    Scan<2> scan = patterns_.front();
+    std::size_t pattern = 0;
+    for (const Kept& kept : kept_) {
+      if (kept.pattern != pattern) scan = patterns_[pattern = kept.pattern];
+      const double range_max_m = scan.range_max_m();
+      for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+        // Exactly the sensor's range means that nothing was met.
+        const float range_m = kept.ranges_m[beam];
+        scan.set_range_m(beam, range_m == static_cast<float>(range_max_m) ? range_max_m : static_cast<double>(range_m));
+      }
+      visit(std::as_const(scan), PoseBelief{pose_now(kept, drift), kept.belief.covariance});
+    }
+  }
+
+  /// The same for the poses alone: visit(pose). O(scans).
+  template <class Visit>
+  void for_each_pose(const MapDrift& drift, Visit&& visit) const {
+    for (const Kept& kept : kept_) visit(pose_now(kept, drift));
+  }
+
+  /// How far the piece that was moved farthest since MapDrift::settle has moved a place where a scan was taken. O(scans).
+  [[nodiscard]] double unsettled_max_m(const MapDrift& drift) const {
+    double farthest_m = 0.0;
+    for (const Kept& kept : kept_) {
+      farthest_m = std::max(farthest_m, norm(drift.shift_m(kept.piece, kept.belief.pose.position())));
+    }
+    return farthest_m;
+  }
+
+ private:
+  struct Kept {
+    PoseBelief belief;
+    Eigen::Vector3d twist;  // of its piece, when it was taken
+    int piece;
+    std::size_t pattern;
+    std::vector<float> ranges_m;
+  };
+
+  [[nodiscard]] static Pose2 pose_now(const Kept& kept, const MapDrift& drift) {
+    return moved_pose(kept.belief.pose, difference(drift.twist(kept.piece), kept.twist));
+  }
+
+  void thin_out() {
+    for (std::size_t i = 0; 2 * i < kept_.size(); ++i) {
+      if (i > 0) kept_[i] = std::move(kept_[2 * i]);
+    }
+    kept_.resize((kept_.size() + 1) / 2);
+    stride_ *= 2;
+  }
+
+  std::size_t scans_max_;
+  std::size_t stride_ = 1;
+  std::size_t seen_ = 0;
+  std::vector<Scan<2>> patterns_;  // each kept scan has the beams of one of them
+  std::vector<Kept> kept_;
+};
+
+}  // namespace incognita

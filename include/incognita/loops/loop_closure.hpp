@@ -1,0 +1,262 @@
+/// Loops: what a robot finds out about its map when it returns to surfaces that it first saw long ago.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "incognita/core/error.hpp"
+#include "incognita/estimation/compass.hpp"
+#include "incognita/estimation/dvl_ekf.hpp"
+#include "incognita/estimation/information.hpp"
+#include "incognita/estimation/map_drift.hpp"
+#include "incognita/estimation/registration.hpp"
+#include "incognita/estimation/surface_map.hpp"
+#include "incognita/loops/drift_graph.hpp"
+#include "incognita/loops/kept_scans.hpp"
+#include "incognita/sensor/scan.hpp"
+
+namespace incognita {
+
+/// Spreads what returns reveal back over the map. Each piece of MapDrift is a body of a DriftGraph. When one is born, the
+/// scan that it is born with measures it against every piece whose surfaces that scan meets: point-to-line residuals, kept
+/// as their information. Where it meets surfaces of two ages, those first seen long ago and those of the way
+/// there, it is registered to each alone, so that a discrepancy is measured and not rejected as outliers. Then
+/// the graph is solved and the pieces are moved to where they cost least. Surfaces follow at once; a belief is
+/// drawn again from the scans kept, by whoever owns it (see is_redraw_due), when something has moved noticeably.
+/// The Loops of a BasicDvlEkf. Memory: some 3 kB a piece, that is a second of driving, and the scans kept.
+/// Time: 0.2 ms a piece, and a solution of the graph at most every `pieces_between_solutions`. Not thread safe.
+class LoopClosure {
+ public:
+  struct Params {
+    bool closes_loops = true;          ///< false: nothing is measured, kept or moved
+    double age_share_min = 0.15;       ///< of a scan's beams must meet old surfaces, and as many new ones, in (0, 0.5]
+    int age_gap_pieces = 30;           ///< between old and new, >= 1
+    int pieces_between_solutions = 10; ///< >= 1
+    double redraw_shift_m = 0.05;      ///< a belief is drawn again when it is off by this much: half a cell of 0.1 m
+    int scans_max = 20000;             ///< kept at most, see KeptScans: 30 MB with 360 beams
+
+    /// Throws std::invalid_argument for values outside of their bounds.
+    void validate() const {
+      require(age_share_min > 0.0 && age_share_min <= 0.5, "LoopClosure", "age_share_min", age_share_min, "in (0, 0.5]");
+      require(age_gap_pieces >= 1, "LoopClosure", "age_gap_pieces", age_gap_pieces, ">= 1");
+      require(pieces_between_solutions >= 1, "LoopClosure", "pieces_between_solutions", pieces_between_solutions, ">= 1");
+      require_positive("LoopClosure", "redraw_shift_m", redraw_shift_m);
+      require(scans_max >= 2, "LoopClosure", "scans_max", scans_max, ">= 2");
+    }
+  };
+
+  /// What a filter knows when a piece is born.
+  struct Keyframe {
+    const Scan<2>& scan;
+    Pose2 pose;                               ///< where the scan was taken
+    std::optional<Compass::Heading> heading;  ///< that the walls in the scan give
+  };
+
+  LoopClosure() : LoopClosure(Params{}) {}
+
+  /// Throws std::invalid_argument for parameters outside of their bounds.
+  explicit LoopClosure(const Params& params) : params_(params), kept_(params.scans_max) { params.validate(); }
+
+  /// Keeps a scan that was learned in `piece`.
+  void keep(const Scan<2>& scan, const PoseBelief& belief, int piece, const MapDrift& drift) {
+    if (params_.closes_loops) kept_.add(scan, belief, piece, drift.twist(piece));
+  }
+
+  /// The robot has moved, with this much of noise. Or it turned out to be elsewhere: a twist `jump` away from where it was
+  /// believed, the covariance being that of such a jump.
+  void add_step(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& jump = {0.0, 0.0, 0.0}) {
+    step_covariance_ += covariance;
+    step_jump_ += jump;
+  }
+
+  /// Measures the youngest piece of `drift` by the scan that it was born with and, when the robot has returned, moves pieces
+  /// and surfaces. Returns the twist by which the robot's pose moves with its piece.
+  [[nodiscard]] Eigen::Vector3d add_keyframe(const Keyframe& keyframe, const RegistrationParams& registration,
+                                             SurfaceMap<2>& surfaces, MapDrift& drift) {
+    if (!params_.closes_loops) return Eigen::Vector3d::Zero();
+    const int piece = graph_.add_body();
+    if (piece == 0) return Eigen::Vector3d::Zero();
+    link_to_last(piece, keyframe.pose, drift);
+    if (keyframe.heading) link_to_heading(piece, keyframe.pose.yaw_rad, *keyframe.heading, drift);
+    const int first_new = first_after_gap(pieces_met(keyframe, registration, surfaces, {drift, 0, piece}), keyframe.scan.size());
+    if (first_new == 0) {
+      link_to_surfaces(piece, keyframe, keyframe.pose, registration, surfaces, {drift, 0, piece});
+      return Eigen::Vector3d::Zero();
+    }
+    const bool has_returned = link_to_age(piece, keyframe, registration, surfaces, {drift, 0, first_new});
+    (void)link_to_age(piece, keyframe, registration, surfaces, {drift, first_new, piece});
+    if (!has_returned || piece < solved_at_ + params_.pieces_between_solutions) return Eigen::Vector3d::Zero();
+    solved_at_ = piece;
+    const Eigen::Vector3d before = drift.twist(piece);
+    const std::vector<Eigen::Vector3d> twists = graph_.solve();
+    for (std::size_t body = 0; body < twists.size(); ++body) drift.set_twist(static_cast<int>(body), twists[body]);
+    const Eigen::Vector3d moved = drift.twist(piece) - before;
+    if (kept_.unsettled_max_m(drift) > params_.redraw_shift_m) {
+      surfaces.rearrange([&drift](int of, const Eigen::Vector2d& at_m) { return drift.shift_m(of, at_m); });
+      drift.settle();
+      is_redraw_due_ = true;
+    }
+    return moved;
+  }
+
+  /// Whether the kept scans are now known to have been taken so far from where the belief has them that it should be drawn
+  /// again; until redrawn().
+  [[nodiscard]] bool is_redraw_due() const { return is_redraw_due_; }
+  void redrawn() { is_redraw_due_ = false; }
+
+  [[nodiscard]] const KeptScans& kept() const { return kept_; }
+  [[nodiscard]] const DriftGraph& graph() const { return graph_; }
+
+ private:
+  /// Surfaces of the pieces in [first, last), where they are now known to be.
+  struct SurfacesOfAge {
+    const MapDrift& drift;
+    int first;
+    int last;
+
+    [[nodiscard]] double occupied_probability(const Surface<2>& surface) const {
+      return surface.piece >= first && surface.piece < last ? 1.0 : -1.0;
+    }
+    [[nodiscard]] double excess_variance_m2(const Surface<2>& /*surface*/, const Eigen::Vector3d& /*jacobian*/) const {
+      return 0.0;
+    }
+    [[nodiscard]] Eigen::Vector2d shift_m(const Surface<2>& surface, const Eigen::Vector2d& at_m) const {
+      return drift.shift_m(surface.piece, at_m);
+    }
+  };
+
+  /// Odometry since the last piece was born.
+  void link_to_last(int piece, const Pose2& pose, const MapDrift& drift) {
+    const Eigen::Matrix3d covariance = carried_covariance(step_covariance_, -pose.position());
+    const Eigen::Matrix3d information = covariance.inverse();
+    graph_.add_link(piece - 1, piece, information,
+                    information * (drift.twist(piece) - drift.twist(piece - 1) - step_jump_));
+    step_covariance_ = Eigen::Matrix3d::Zero();
+    step_jump_ = Eigen::Vector3d::Zero();
+  }
+
+  /// The compass heard with one scan stands for those with which the piece grows.
+  void link_to_heading(int piece, double yaw_rad, const Compass::Heading& heading, const MapDrift& drift) {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    information(2, 2) = drift.scans_per_piece() / heading.variance_rad2;
+    const double turn_rad = drift.twist(piece)[2] + angle_between_rad(yaw_rad, heading.yaw_rad);
+    graph_.add_link(0, piece, information, {0.0, 0.0, information(2, 2) * turn_rad});
+  }
+
+  /// Calls visit(surface, match, end_point_m) for each hit that meets a surface, from `pose`.
+  template <class Visit>
+  static void for_each_match(const Scan<2>& scan, const Pose2& pose, const RegistrationParams& registration,
+                             const SurfaceMap<2>& surfaces, const SurfacesOfAge& of_age, Visit&& visit) {
+    const Eigen::Matrix2d rotation = pose.rotation();
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      if (scan.reading(beam) != Reading::hit) continue;
+      const Eigen::Vector2d direction = rotation * scan.direction(beam);
+      const Eigen::Vector2d end_point_m = pose.position() + direction * scan.range_m(beam);
+      const SurfaceMatch match = match_surface(surfaces, end_point_m, direction, registration, of_age);
+      if (match.surface != nullptr && of_age.occupied_probability(*match.surface) > 0.0) visit(match, end_point_m);
+    }
+  }
+
+  /// The pieces whose surfaces the scan meets, one a beam, oldest first.
+  [[nodiscard]] static std::vector<int> pieces_met(const Keyframe& keyframe, const RegistrationParams& registration,
+                                                   const SurfaceMap<2>& surfaces, const SurfacesOfAge& older) {
+    std::vector<int> pieces;
+    for_each_match(keyframe.scan, keyframe.pose, registration, surfaces, older,
+                   [&](const SurfaceMatch& match, const Eigen::Vector2d&) { pieces.push_back(match.surface->piece); });
+    std::sort(pieces.begin(), pieces.end());
+    return pieces;
+  }
+
+  /// The first piece after the widest gap in age that leaves enough beams on either side; 0 when none is wide enough.
+  [[nodiscard]] int first_after_gap(const std::vector<int>& pieces, std::size_t beams) const {
+    const std::size_t enough = beams_of_an_age(beams);
+    int widest = params_.age_gap_pieces - 1;
+    int first = 0;
+    for (std::size_t i = enough; i + enough <= pieces.size(); ++i) {
+      const int gap = pieces[i] - pieces[i - 1];
+      if (gap <= widest) continue;
+      widest = gap;
+      first = pieces[i];
+    }
+    return first;
+  }
+
+  [[nodiscard]] std::size_t beams_of_an_age(std::size_t beams) const {
+    return std::max<std::size_t>(1, static_cast<std::size_t>(params_.age_share_min * static_cast<double>(beams)));
+  }
+
+  /// Registers the scan to the surfaces of one age and measures `piece` against theirs from there. Returns whether there
+  /// were enough of them.
+  bool link_to_age(int piece, const Keyframe& keyframe, const RegistrationParams& registration,
+                   const SurfaceMap<2>& surfaces, const SurfacesOfAge& of_age) {
+    RegistrationParams alone = registration;
+    alone.iterations = std::max(registration.iterations, age_iterations);
+    const PoseBelief prior{keyframe.pose, diagonal_covariance(0.05 * 0.05, 0.05 * 0.05, 0.02 * 0.02)};
+    const Registration found = register_scan(prior, keyframe.scan, surfaces, alone, of_age);
+    if (found.associations < beams_of_an_age(keyframe.scan.size())) return false;
+    link_to_surfaces(piece, keyframe, found.belief.pose, registration, surfaces, of_age);
+    return true;
+  }
+
+  /// Measures `piece` against the pieces whose surfaces its scan meets from `pose`, which is where it would have been taken
+  /// if they were right.
+  void link_to_surfaces(int piece, const Keyframe& keyframe, const Pose2& pose, const RegistrationParams& registration,
+                        const SurfaceMap<2>& surfaces, const SurfacesOfAge& of_age) {
+    struct Met {
+      int piece;
+      Information information;
+    };
+    std::vector<Met> met;
+    double matches = 0.0;
+    for_each_match(keyframe.scan, pose, registration, surfaces, of_age,
+                   [&](const SurfaceMatch& match, const Eigen::Vector2d& end_point_m) {
+      matches += 1.0;
+      const int of = match.surface->piece;
+      auto found = std::find_if(met.begin(), met.end(), [of](const Met& m) { return m.piece == of; });
+      if (found == met.end()) found = met.insert(met.end(), Met{of, {}});
+      const double residual_m = match.is_line ? dot(match.surface->normal, match.offset_m) : norm(match.offset_m);
+      const double scaled_residual = residual_m / registration.residual_scale_m;
+      const double weight = 1.0 / ((1.0 + scaled_residual * scaled_residual) * registration.dvl.occupied_m2);
+      // Twists move the end point about the map's origin.
+      if (match.is_line) {
+        found->information.add(end_point_jacobian(match.surface->normal, end_point_m), -residual_m, weight);
+      } else {
+        const double point_weight = registration.point_weight * weight;
+        found->information.add(end_point_jacobian({1.0, 0.0}, end_point_m), -match.offset_m[0], point_weight);
+        found->information.add(end_point_jacobian({0.0, 1.0}, end_point_m), -match.offset_m[1], point_weight);
+      }
+    });
+    const Eigen::Vector3d off = twist_between(keyframe.pose, pose);
+    for (const Met& of : met) {
+      const double tempered = registration.gamma / matches;
+      const Eigen::Matrix3d information = tempered * of.information.matrix;
+      const Eigen::Vector3d measured = drift_between(of.piece, piece, of_age.drift) + off;
+      graph_.add_link(of.piece, piece, information, information * measured + tempered * of.information.vector);
+    }
+  }
+
+  [[nodiscard]] static Eigen::Vector3d drift_between(int from, int to, const MapDrift& drift) {
+    return drift.twist(to) - drift.twist(from);
+  }
+
+  static constexpr int age_iterations = 4;
+
+  Params params_;
+  DriftGraph graph_;
+  KeptScans kept_;
+  Eigen::Matrix3d step_covariance_ = Eigen::Matrix3d::Zero();  // since the last piece was born
+  Eigen::Vector3d step_jump_ = Eigen::Vector3d::Zero();
+  int solved_at_ = 0;
+  bool is_redraw_due_ = false;
+};
+
+/// The filter that closes loops.
+using LoopClosingDvlEkf = BasicDvlEkf<2, LoopClosure>;
+
+}  // namespace incognita
