@@ -21,12 +21,13 @@ namespace incognita {
 
 /// How a robot gets out of a tight place.
 struct RetreatParams {
-  double distance_m = 0.1;   ///< how far it goes
+  double distance_m = 0.1;     ///< how far it goes
   double speed_m_per_s = 0.1;
   double turn_rate_rad_per_s = 0.5;
-  double aim_rad = 0.1;      ///< it drives once its heading is this near to the way out
-  double look_m = 0.5;       ///< ways that are free for this long are as good as each other
-  int headings = 36;         ///< how many ways are tried
+  double aim_rad = 0.1;        ///< it drives once its heading is this near to the way out
+  double look_m = 0.5;         ///< ways that are free for this long are as good as each other
+  int headings = 36;           ///< how many ways are tried
+  int blocked_scans_max = 10;  ///< a way out is given up when it was blocked for so many scans in a row
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -36,6 +37,7 @@ struct RetreatParams {
     require_positive("RetreatParams", "aim_rad", aim_rad);
     require_positive("RetreatParams", "look_m", look_m);
     require(headings >= 4, "RetreatParams", "headings", headings, ">= 4");
+    require(blocked_scans_max >= 0, "RetreatParams", "blocked_scans_max", blocked_scans_max, ">= 0");
   }
 };
 
@@ -75,8 +77,9 @@ struct RetreatParams {
   return best_turn_rad;
 }
 
-/// A robot's retreat from where it stands. It keeps to the way out that it has chosen until it faces that and cannot drive:
-/// of two ways that are nearly as good, each scan's noise would choose another, and the robot would face neither.
+/// A robot's retreat from where it stands. It keeps to the way out that it has chosen until it faces that and cannot drive for
+/// a while: of two ways that are nearly as good, each scan's noise would choose another, and the robot would face neither, or
+/// turn to and fro between the two ends of a passage hardly wider than itself.
 class Retreat {
  public:
   /// From where the robot is, with its latest scan, which is in its frame. Throws std::invalid_argument for parameters
@@ -101,12 +104,14 @@ class Retreat {
     const double turn_rad_per_s = std::clamp(2.0 * turn_rad, -params_.turn_rate_rad_per_s, params_.turn_rate_rad_per_s);
     if (std::abs(turn_rad) > params_.aim_rad) return {0.0, turn_rad_per_s};
     const Twist2 allowed = guard_command({params_.speed_m_per_s, turn_rad_per_s}, scan, guard_);
-    if (allowed.speed_m_per_s == 0.0) choose_heading(T_map_robot, scan);
+    blocked_scans_ = allowed.speed_m_per_s == 0.0 ? blocked_scans_ + 1 : 0;
+    if (blocked_scans_ > params_.blocked_scans_max) choose_heading(T_map_robot, scan);
     return allowed;
   }
 
  private:
   void choose_heading(const Pose2& T_map_robot, const Scan<2>& scan) {
+    blocked_scans_ = 0;
     heading_rad_ = wrap_angle_rad(T_map_robot.yaw_rad + turn_to_way_out_rad(scan, guard_, params_));
   }
 
@@ -114,6 +119,7 @@ class Retreat {
   RetreatParams params_;
   Eigen::Vector2d from_m_;
   double heading_rad_ = 0.0;
+  int blocked_scans_ = 0;  // in a row
 };
 
 }  // namespace incognita
