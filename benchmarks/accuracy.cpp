@@ -88,16 +88,24 @@ void explore_all(std::vector<Building>& buildings, int missions, const Options& 
   });
 }
 
+/// What the estimator is told to use.
+struct Mode {
+  bool uses_compass;
+  bool closes_loops;
+  bool has_people;
+};
+
 [[nodiscard]] std::vector<accuracy::ReplayGroup> replay_all(const std::vector<Building>& buildings,
                                                             const std::vector<std::size_t>& beam_counts,
-                                                            const Options& options) {
+                                                            const std::vector<Mode>& modes, const Options& options) {
   const auto seeds = static_cast<std::size_t>(options.seeds);
   std::vector<accuracy::ReplayGroup> groups;
   std::vector<const Building*> building_of_group;
   for (const Building& building : buildings) {
     for (const std::size_t beams : beam_counts) {
-      for (const bool uses_compass : {true, false}) {
-        groups.push_back({building.name, beams, uses_compass, std::vector<accuracy::Replay>(seeds)});
+      for (const Mode& mode : modes) {
+        groups.push_back({building.name, beams, mode.uses_compass, mode.closes_loops, mode.has_people,
+                          std::vector<accuracy::Replay>(seeds)});
         building_of_group.push_back(&building);
       }
     }
@@ -106,7 +114,8 @@ void explore_all(std::vector<Building>& buildings, int missions, const Options& 
     accuracy::ReplayGroup& group = groups[index / seeds];
     const Building& building = *building_of_group[index / seeds];
     group.replays[index % seeds] = accuracy::replay(building.world, building.missions.front(),
-                                                    {index % seeds + 1, group.beams, group.uses_compass});
+                                                    {index % seeds + 1, group.beams, group.uses_compass, group.closes_loops,
+                                                     group.has_people});
   });
   return groups;
 }
@@ -136,7 +145,16 @@ void report(const Options& options) {
   std::printf(
       "\n## Replayed missions\n\nThe estimator alone, with other noise, in a frame at a random angle.\n\n");
   std::fflush(stdout);
-  accuracy::print_replays(replay_all(floors, options.beams, options));
+  const std::vector<Mode> modes{{true, true, false}, {true, false, false}, {false, true, false}, {false, false, false}};
+  accuracy::print_replays(replay_all(floors, options.beams, modes, options));
+
+  std::printf(
+      "\n## People\n\nThe same drives, 360 beams, compass and loops, while %d discs of %.2f m walk through the building at "
+      "%.0f m/s. Wrongly occupied: of the known cells further than 0.2 m from anything.\n\n",
+      accuracy::People::count, accuracy::People::radius_m, accuracy::People::speed_m_per_s);
+  std::fflush(stdout);
+  accuracy::print_people(replay_all(floors, {360}, {{true, true, false}}, options),
+                         replay_all(floors, {360}, {{true, true, true}}, options));
 
   accuracy::print_wrong_places_header(mishap_interval_s);
   std::fflush(stdout);
@@ -152,14 +170,14 @@ void report(const Options& options) {
         "\n## Rough walls\n\nA floor plan turned by %.2f rad in its own raster: walls are staircases.\n\n",
         rough_turn_rad);
     std::fflush(stdout);
-    const auto groups = replay_all(rough, {360}, options);
+    const auto groups = replay_all(rough, {360}, modes, options);
     accuracy::print_replays(groups);
     accuracy::print_compass(groups);
   }
   std::printf(
       "\n## Round and oblique\n\nA circular building, and one of two grids at 30 degrees to each other.\n\n");
   std::fflush(stdout);
-  const auto groups = replay_all(drawn, {360}, options);
+  const auto groups = replay_all(drawn, {360}, modes, options);
   accuracy::print_replays(groups);
   accuracy::print_compass(groups);
 }

@@ -12,6 +12,7 @@
 #include "incognita/exploration/explorer.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/twist2.hpp"
+#include "incognita/loops/loop_closure.hpp"
 #include "incognita/metrics/nees.hpp"
 #include "incognita/simulation/simulator.hpp"
 #include "incognita/simulation/start.hpp"
@@ -46,6 +47,9 @@ class DriveErrors {
   return 1.0 / params.steps_per_s;
 }
 
+/// As in kth_explorer: compass and loops.
+using Explorer = incognita::Explorer<incognita::Map<>, incognita::Behavioral, incognita::LoopClosingDvlEkf>;
+
 /// What an explorer did in a building: where it started there, and the command of every step.
 struct Mission {
   incognita::Pose2 T_world_start;
@@ -66,7 +70,7 @@ struct Mission {
   incognita::Simulator simulator(world, mission.T_world_start, params, seed);
   incognita::ExplorerParams explorer_params;
   explorer_params.threads = 1;
-  incognita::Explorer<> explorer(explorer_params);
+  Explorer explorer(explorer_params);
   explorer.observe(simulator.scan());
   explorer.decide();
   incognita::Twist2 command = explorer.command(simulator.scan());

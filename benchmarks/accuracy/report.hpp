@@ -20,6 +20,8 @@ struct ReplayGroup {
   std::string building;
   std::size_t beams = 0;
   bool uses_compass = true;
+  bool closes_loops = true;
+  bool has_people = false;
   std::vector<Replay> replays;
 };
 
@@ -61,10 +63,10 @@ inline void print_missions_header() {
 /// One row a group. Costs are medians over a drive's scans, then over the drives.
 inline void print_replays(const std::vector<ReplayGroup>& groups) {
   std::printf(
-      "| building | beams | compass | position RMSE, m: mean [95 %%] | worst | heading RMSE, mrad: mean [95 "
+      "| building | beams | compass | loops | position RMSE, m: mean [95 %%] | worst | heading RMSE, mrad: mean [95 "
       "%%] | worst "
-      "| NEES: mean [95 %%] | worst | estimator, us | map update, us | scans not trusted |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| NEES: mean [95 %%] | worst | a scan, us: median | mean | scans not trusted |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const ReplayGroup& group : groups) {
     const auto position_m =
         values_of(group.replays, [](const Replay& r) { return r.errors.position_rmse_m(); });
@@ -72,13 +74,13 @@ inline void print_replays(const std::vector<ReplayGroup>& groups) {
         values_of(group.replays, [](const Replay& r) { return 1e3 * r.errors.heading_rmse_rad(); });
     const auto nees = values_of(group.replays, [](const Replay& r) { return r.errors.mean_position_nees(); });
     const auto untrusted = values_of(group.replays, [](const Replay& r) { return r.untrusted_share; });
-    std::printf("| %s | %zu | %s | %s | %.4f | %s | %.2f | %s | %.2f | %.0f | %.0f | %.2f %% |\n",
-                group.building.c_str(), group.beams, group.uses_compass ? "on" : "off",
+    std::printf("| %s | %zu | %s | %s | %s | %.4f | %s | %.2f | %s | %.2f | %.0f | %.0f | %.2f %% |\n",
+                group.building.c_str(), group.beams, group.uses_compass ? "on" : "off", group.closes_loops ? "on" : "off",
                 with_interval(position_m, 4).c_str(), summarise(position_m).worst,
                 with_interval(heading_mrad, 2).c_str(), summarise(heading_mrad).worst,
                 with_interval(nees, 2).c_str(), summarise(nees).worst,
-                median(values_of(group.replays, [](const Replay& r) { return r.estimator_us; })),
-                median(values_of(group.replays, [](const Replay& r) { return r.map_update_us; })),
+                median(values_of(group.replays, [](const Replay& r) { return r.scan_median_us; })),
+                median(values_of(group.replays, [](const Replay& r) { return r.scan_mean_us; })),
                 100.0 * summarise(untrusted).mean);
   }
 }
@@ -89,11 +91,29 @@ inline void print_compass(const std::vector<ReplayGroup>& groups) {
       "\n| building | beams | share of the walls along the dominant direction | scans with a heading |\n"
       "|---|---|---|---|\n");
   for (const ReplayGroup& group : groups) {
-    if (!group.uses_compass) continue;
+    if (!group.uses_compass || !group.closes_loops) continue;
     const auto share = values_of(group.replays, [](const Replay& r) { return r.compass_mean_share; });
     const auto headings = values_of(group.replays, [](const Replay& r) { return r.compass_heading_share; });
     std::printf("| %s | %zu | %.2f | %.1f %% |\n", group.building.c_str(), group.beams, summarise(share).mean,
                 100.0 * summarise(headings).mean);
+  }
+}
+
+/// Groups with people against the same without.
+inline void print_people(const std::vector<ReplayGroup>& without, const std::vector<ReplayGroup>& with) {
+  std::printf(
+      "| building | position RMSE without people, m | with, m | ratio | free cells wrongly occupied without | with, at "
+      "most |\n"
+      "|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    const auto position_m = [](const ReplayGroup& group) {
+      return summarise(values_of(group.replays, [](const Replay& r) { return r.errors.position_rmse_m(); })).mean;
+    };
+    const auto wrong = [](const ReplayGroup& group) {
+      return 100.0 * summarise(values_of(group.replays, [](const Replay& r) { return r.wrongly_occupied_share; })).worst;
+    };
+    std::printf("| %s | %.4f | %.4f | %.2f | %.2f %% | %.2f %% |\n", with[i].building.c_str(), position_m(without[i]),
+                position_m(with[i]), position_m(with[i]) / position_m(without[i]), wrong(without[i]), wrong(with[i]));
   }
 }
 

@@ -92,22 +92,22 @@ class MishapTrial {
     constexpr double recovered_m = 0.15;
     constexpr int scans = 20;
     constexpr double blinded_s = 10.0;
-    const incognita::Map<> before = localiser_.map;
+    const incognita::Map<> before = localiser_.map();
     if (mishap == Mishap::kidnapped) carry(3.0);
-    if (mishap == Mishap::slipped) localiser_.filter.predict({1.0, 0.0, 0.0}, 1.0);
+    if (mishap == Mishap::slipped) localiser_.move({1.0, 0.0, 0.0}, 1.0);
     if (mishap == Mishap::blinded) blind(blinded_s, std::numeric_limits<double>::quiet_NaN());
     if (mishap == Mishap::dazzled) blind(blinded_s, simulator_.scan().range_max_m());
     incognita::CorrectionReport report;
     for (int scan = 0; scan < scans; ++scan) {
       drive_to_next_scan(true);
-      report = localiser_.observe(simulator_.scan());
+      report = localiser_.observe(simulator_.scan()).correction;
     }
     if (is_over_) return {};
-    const double error_m = incognita::distance(localiser_.filter.belief().pose.position(),
+    const double error_m = incognita::distance(localiser_.belief().pose.position(),
                                                (T_map_start_ * simulator_.T_start_robot()).position());
     Outcomes outcome;
     outcome.count = 1;
-    outcome.flipped_share_max = flipped_share(before, localiser_.map);
+    outcome.flipped_share_max = flipped_share(before, localiser_.map());
     if (report.trusted && error_m < recovered_m) {
       outcome.recovered = 1;
     } else if (report.trusted) {
@@ -125,7 +125,7 @@ class MishapTrial {
       is_over_ = is_over_ || next_command_ >= mission_.commands.size();
       if (is_over_) return;
       const incognita::Pose2 increment = simulator_.step(mission_.commands[next_command_++]);
-      if (has_odometry) localiser_.filter.predict(increment, step_s({}));
+      if (has_odometry) localiser_.move(increment, step_s({}));
     } while (!simulator_.scan_is_new());
   }
 
@@ -158,14 +158,14 @@ class MishapTrial {
   const incognita::SimulatorParams simulated;
   incognita::Simulator simulator(world, mission.T_world_start, simulated, seed);
   const incognita::Pose2 T_map_start = random_frame(seed);
-  incognita::DvlEkf::Params params;
+  incognita::LoopClosingDvlEkf::Params params;
   params.start.pose = T_map_start;
-  Localiser localiser(params);
+  Localiser localiser{incognita::LoopClosingDvlEkf(params)};
   localiser.observe(simulator.scan());
   OutcomesByMishap outcomes;
   const auto interval = static_cast<std::size_t>(interval_s * simulated.steps_per_s);
   for (std::size_t done = 1; done <= mission.commands.size(); ++done) {
-    localiser.filter.predict(simulator.step(mission.commands[done - 1]), step_s(simulated));
+    localiser.move(simulator.step(mission.commands[done - 1]), step_s(simulated));
     if (simulator.scan_is_new()) localiser.observe(simulator.scan());
     if (done % interval != 0) continue;
     for (std::size_t kind = 0; kind < mishaps.size(); ++kind) {

@@ -262,7 +262,11 @@ class BasicDvlEkf {
       if (match.surface == nullptr || surface_belief.occupied_probability(*match.surface) < 0.0) continue;
       drift_.add_match(match.surface->piece);
     }
+    const int before = drift_.reference().piece;
     add_to(in_map_, drift_.choose_reference());
+    if constexpr (closes_loops) {
+      if (loops_.is_return(before, drift_.reference().piece)) drift_.begin_piece();
+    }
   }
 
   template <class MapType>

@@ -74,6 +74,7 @@ class MapDrift {
   struct Reference {
     Eigen::Matrix3d drift = Eigen::Matrix3d::Zero();
     double turn_at_birth_rad2 = 0.0;
+    int piece = 0;
   };
 
   [[nodiscard]] const Reference& reference() const { return reference_; }
@@ -88,13 +89,19 @@ class MapDrift {
 
   /// The piece that surfaces learned by this scan belong to. `covariance` is the pose's in the reference.
   [[nodiscard]] int piece_of_scan(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& position_m) {
-    if (scans_++ % params_.scans_per_piece == 0) {
+    if (begins_piece_ || scans_in_piece_ == params_.scans_per_piece) {
+      begins_piece_ = false;
+      scans_in_piece_ = 0;
       Eigen::Matrix3d born = reference_.drift;
       add_to(born, carried_covariance(covariance, {-position_m[0], -position_m[1]}), params_.inherited_share);
       pieces_.push_back({born, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, born(2, 2)});
     }
+    ++scans_in_piece_;
     return static_cast<int>(pieces_.size()) - 1;
   }
+
+  /// The next scan begins a new piece.
+  void begin_piece() { begins_piece_ = true; }
 
   [[nodiscard]] int scans_per_piece() const { return params_.scans_per_piece; }
 
@@ -121,7 +128,7 @@ class MapDrift {
     // In proportion, which is positive semi-definite whatever the two covariances' shapes.
     if (old_m2 > chosen_m2) add_to(added, covariance_at(position_m_), 1.0 - chosen_m2 / old_m2);
     const Piece& chosen = pieces_[static_cast<std::size_t>(piece)];
-    reference_ = {chosen.drift, chosen.turn_at_birth_rad2};
+    reference_ = {chosen.drift, chosen.turn_at_birth_rad2, piece};
     return added;
   }
 
@@ -224,7 +231,8 @@ class MapDrift {
   std::vector<Piece> pieces_;
   std::vector<Match> matched_;
   Eigen::Vector2d position_m_{0.0, 0.0};
-  long scans_ = 0;
+  int scans_in_piece_ = 0;
+  bool begins_piece_ = true;
 };
 
 }  // namespace incognita

@@ -35,7 +35,7 @@ class LoopClosure {
  public:
   struct Params {
     bool closes_loops = true;          ///< false: nothing is measured, kept or moved
-    double age_share_min = 0.15;       ///< of a scan's beams must meet old surfaces, and as many new ones, in (0, 0.5]
+    double age_share_min = 0.1;         ///< of a scan's beams must meet old surfaces, and as many new ones, in (0, 0.5]
     int age_gap_pieces = 30;           ///< between old and new, >= 1
     int pieces_between_solutions = 10; ///< >= 1
     double redraw_shift_m = 0.05;      ///< a belief is drawn again when it is off by this much: half a cell of 0.1 m
@@ -73,6 +73,12 @@ class LoopClosure {
   void add_step(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& jump = {0.0, 0.0, 0.0}) {
     step_covariance_ += covariance;
     step_jump_ += jump;
+  }
+
+  /// Whether a robot that was registered to one piece and now is to another has returned: a piece should begin there, before
+  /// what is new is bent to fit what is old.
+  [[nodiscard]] bool is_return(int from, int to) const {
+    return params_.closes_loops && from - to >= params_.age_gap_pieces;
   }
 
   /// Measures the youngest piece of `drift` by the scan that it was born with and, when the robot has returned, moves pieces
@@ -133,8 +139,9 @@ class LoopClosure {
 
   /// Odometry since the last piece was born.
   void link_to_last(int piece, const Pose2& pose, const MapDrift& drift) {
-    const Eigen::Matrix3d covariance = carried_covariance(step_covariance_, -pose.position());
-    const Eigen::Matrix3d information = covariance.inverse();
+    // No step is known better than to a millimetre and a milliradian, nor has a zero covariance an inverse.
+    const Eigen::Matrix3d covariance = step_covariance_ + 1e-6 * Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d information = carried_covariance(covariance, -pose.position()).inverse();
     graph_.add_link(piece - 1, piece, information,
                     information * (drift.twist(piece) - drift.twist(piece - 1) - step_jump_));
     step_covariance_ = Eigen::Matrix3d::Zero();

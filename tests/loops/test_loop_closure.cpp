@@ -1,0 +1,204 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "../estimation/room.hpp"
+#include "incognita/core/random.hpp"
+#include "incognita/estimation/slam.hpp"
+#include "incognita/loops/loop_closure.hpp"
+#include "incognita/map/occupancy.hpp"
+#include "incognita/testing/estimator_laws.hpp"
+
+using namespace incognita;
+
+namespace {
+
+/// A corridor of 2 m width around a block, longer than the scanner sees, with pillars along its walls.
+std::vector<room::Wall> ring() {
+  std::vector<room::Wall> walls = room::box(room::kTurned, 13.0, 9.0);
+  for (const room::Wall& wall : room::box(room::kTurned, 11.0, 7.0)) walls.push_back(wall);
+  Random random(3);
+  for (int pillar = 0; pillar < 24; ++pillar) {
+    const bool is_beside = pillar % 2 == 0;
+    const double side = pillar % 4 < 2 ? 1.0 : -1.0;
+    const Pose2 at{is_beside ? 12.9 * side : random.uniform(-12.0, 12.0), is_beside ? random.uniform(-8.0, 8.0) : 8.9 * side, 0.0};
+    for (const room::Wall& wall : room::box(room::kTurned * at, 0.2, 0.2)) walls.push_back(wall);
+  }
+  return walls;
+}
+
+/// Around the ring along the corridor's middle, 0.1 m or 0.1 rad a scan.
+std::vector<Pose2> way_around(double laps) {
+  const std::vector<Eigen::Vector2d> corners{{12.0, 0.0}, {12.0, 8.0}, {-12.0, 8.0}, {-12.0, -8.0}, {12.0, -8.0}};
+  std::vector<Pose2> way{{12.0, 0.0, 0.5 * std::numbers::pi}};
+  double left_m = laps * 80.0;
+  for (std::size_t next = 1; left_m > 0.0; next = next % (corners.size() - 1) + 1) {
+    const auto ahead_rad = [&] {
+      const Eigen::Vector2d to = corners[next] - way.back().position();
+      return std::atan2(to.y(), to.x());
+    };
+    while (std::abs(angle_between_rad(way.back().yaw_rad, ahead_rad())) > 1e-6) {
+      const double turn_rad = angle_between_rad(way.back().yaw_rad, ahead_rad());
+      way.push_back(way.back() * Pose2{0.0, 0.0, std::clamp(turn_rad, -0.1, 0.1)});
+    }
+    while (distance(way.back().position(), corners[next]) > 1e-6) {
+      const double step_m = std::min(0.1, distance(way.back().position(), corners[next]));
+      way.push_back(way.back() * Pose2{step_m, 0.0, 0.0});
+      left_m -= step_m;
+    }
+  }
+  for (Pose2& pose : way) pose = room::kTurned * pose;
+  return way;
+}
+
+struct Drive {
+  double error_max_m = 0.0;       ///< after a whole lap
+  double doubled_share = 0.0;     ///< of the occupied cells, those more than 0.2 m from any wall
+  int redrawn = 0;
+  std::size_t scans_kept = 0;
+};
+
+double distance_to_wall_m(const Eigen::Vector2d& point_m, const std::vector<room::Wall>& walls) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const room::Wall& wall : walls) {
+    const Eigen::Vector2d along = wall.to - wall.from;
+    const double share = std::clamp((point_m - wall.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    nearest_m = std::min(nearest_m, (point_m - wall.from - share * along).norm());
+  }
+  return nearest_m;
+}
+
+/// One and a half laps. Once the scanner sees nothing for 11 m, while odometry errs by 0.05 m and 0.004 rad: what is mapped then
+/// hangs together, and is off.
+Drive drive_around(const LoopClosingDvlEkf::Params& filter_params) {
+  const std::vector<room::Wall> walls = ring();
+  const std::vector<Pose2> way = way_around(1.5);
+  Random random(5);
+  LoopClosingDvlEkf::Params params = filter_params;
+  params.start.pose = way.front();
+  params.uses_compass = false;
+  Slam<Map<>, LoopClosingDvlEkf> slam{LoopClosingDvlEkf(params)};
+  const auto scan_at = [&](const Pose2& pose) {
+    Scan<2> scan = room::scan_of(walls, pose, circular_beams(180, 5.0));
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      if (scan.reading(beam) == Reading::hit) scan.set_range_m(beam, scan.range_m(beam) + random.normal(0.0, 0.005));
+    }
+    return scan;
+  };
+  Drive drive;
+  for (int still = 0; still < 20; ++still) slam.observe(scan_at(way.front()));
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    Pose2 increment = way[i - 1].inverse() * way[i];
+    const bool is_blind = i >= 300 && i < 410;
+    increment.x_m += is_blind ? 0.05 / 110.0 : random.normal(0.0, 0.001);
+    increment.yaw_rad += is_blind ? -0.004 / 110.0 : random.normal(0.0, 0.001);
+    slam.move(increment, 0.1);
+    Scan<2> scan = scan_at(way[i]);
+    for (std::size_t beam = 0; is_blind && beam < scan.size(); ++beam) {
+      scan.set_range_m(beam, std::numeric_limits<double>::quiet_NaN());
+    }
+    if (slam.observe(scan).is_redrawn) ++drive.redrawn;
+    if (i > way.size() * 5 / 6) {
+      drive.error_max_m = std::max(drive.error_max_m, distance(slam.belief().pose.position(), way[i].position()));
+    }
+  }
+  double occupied = 0.0;
+  const OccupancyGrid<2> occupancy = classify(slam.map());
+  for (Offset offset = 0; offset < static_cast<Offset>(occupancy.size()); ++offset) {
+    if (occupancy[offset] != Occupancy::occupied) continue;
+    occupied += 1.0;
+    const Eigen::Vector2d center_m = occupancy.lattice().center_m(occupancy.index_at(offset));
+    if (distance_to_wall_m(center_m, walls) > 0.2) drive.doubled_share += 1.0;
+  }
+  drive.doubled_share /= occupied;
+  drive.scans_kept = slam.filter().loops().kept().size();
+  return drive;
+}
+
+LoopClosingDvlEkf::Params closing(bool closes_loops) {
+  LoopClosingDvlEkf::Params params;
+  params.loops.closes_loops = closes_loops;
+  return params;
+}
+
+}  // namespace
+
+TEST_CASE("A ring that does not close is torn without loops, and whole with them", "[loops]") {
+  const Drive torn = drive_around(closing(false));
+  const Drive whole = drive_around(closing(true));
+  CHECK(torn.redrawn == 0);
+  CHECK(torn.scans_kept == 0);
+  CHECK(torn.error_max_m > 0.1);
+  CHECK(torn.doubled_share > 0.03);
+  CHECK(whole.redrawn > 0);
+  CHECK(whole.scans_kept > 1000);
+  CHECK(whole.error_max_m < 0.6 * torn.error_max_m);
+  CHECK(whole.doubled_share < 0.2 * torn.doubled_share);
+}
+
+TEST_CASE("A filter whose loops are not closed is the filter without loops, to the bit", "[loops]") {
+  const std::vector<room::Wall> walls = ring();
+  const std::vector<Pose2> way = way_around(0.3);
+  LoopClosingDvlEkf::Params params = closing(false);
+  params.start.pose = way.front();
+  DvlEkf::Params plain_params;
+  plain_params.start.pose = way.front();
+  Slam<Map<>, LoopClosingDvlEkf> slam{LoopClosingDvlEkf(params)};
+  Slam<Map<>, DvlEkf> plain{DvlEkf(plain_params)};
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Pose2 increment = way[i - 1].inverse() * way[i] * Pose2{0.001, 0.0, 0.0005};
+    const Scan<2> scan = room::scan_of(walls, way[i], circular_beams(90, 5.0));
+    slam.move(increment, 0.1);
+    plain.move(increment, 0.1);
+    slam.observe(scan);
+    plain.observe(scan);
+    REQUIRE(slam.belief().pose.x_m == plain.belief().pose.x_m);
+    REQUIRE(slam.belief().pose.yaw_rad == plain.belief().pose.yaw_rad);
+    REQUIRE(slam.belief().covariance == plain.belief().covariance);
+  }
+}
+
+TEST_CASE("A map that was given is not lost when it is drawn again", "[loops]") {
+  const std::vector<room::Wall> walls = ring();
+  Map<> given;
+  const Pose2 far{60.0, 60.0, 0.0};
+  given.update(room::scan_of(room::box(far), far, circular_beams(360, 5.0)), far, Eigen::Matrix3d::Zero());
+  LoopClosingDvlEkf::Params params = closing(true);
+  params.loops.redraw_shift_m = 1e-6;  // whatever moves
+  const std::vector<Pose2> way = way_around(1.2);
+  params.start.pose = way.front();
+  Slam<Map<>, LoopClosingDvlEkf> slam(LoopClosingDvlEkf(params), given);
+  int redrawn = 0;
+  Random random(1);
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    slam.move(way[i - 1].inverse() * way[i] * Pose2{0.0, 0.0, random.normal(0.0, 0.002)}, 0.1);
+    if (slam.observe(room::scan_of(walls, way[i], circular_beams(90, 5.0))).is_redrawn) ++redrawn;
+  }
+  REQUIRE(redrawn > 0);
+  const Index<2> wall = given.lattice().index_of(far.position() + Eigen::Vector2d(3.05, 0.0));
+  CHECK(given.probability(wall) > 0.8);
+  CHECK(slam.map().probability(wall) == given.probability(wall));
+  CHECK(distance(slam.belief().pose.position(), way.back().position()) < 0.2);
+}
+
+TEST_CASE("The filter that closes loops keeps the laws of an estimator", "[loops]") {
+  CHECK(check_estimator_laws(LoopClosingDvlEkf()).text() == "");
+}
+
+TEST_CASE("Parameters of loops out of bounds are refused by name", "[loops]") {
+  const auto refused = [](auto change, const char* field, const char* value) {
+    LoopClosure::Params params;
+    change(params);
+    CHECK_THROWS_WITH(LoopClosure(params), Catch::Contains(field) && Catch::Contains(value));
+  };
+  refused([](auto& p) { p.age_share_min = 0.75; }, "age_share_min", "0.75");
+  refused([](auto& p) { p.age_gap_pieces = 0; }, "age_gap_pieces", "0");
+  refused([](auto& p) { p.pieces_between_solutions = -3; }, "pieces_between_solutions", "-3");
+  refused([](auto& p) { p.redraw_shift_m = 0.0; }, "redraw_shift_m", "0");
+  refused([](auto& p) { p.scans_max = 1; }, "scans_max", "1");
+}
