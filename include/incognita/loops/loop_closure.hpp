@@ -75,10 +75,11 @@ class LoopClosure {
     step_jump_ += jump;
   }
 
-  /// Whether a robot that was registered to one piece and now is to another has returned: a piece should begin there, before
-  /// what is new is bent to fit what is old.
+  /// Whether a robot that was registered to piece `from`, among the youngest, and now is to piece `to` has returned: a piece
+  /// should begin there, before what is new is bent to fit what is old.
   [[nodiscard]] bool is_return(int from, int to) const {
-    return params_.closes_loops && from - to >= params_.age_gap_pieces;
+    const bool was_in_the_new = from >= graph_.bodies() - params_.age_gap_pieces;
+    return params_.closes_loops && was_in_the_new && from - to >= params_.age_gap_pieces;
   }
 
   /// Measures the youngest piece of `drift` by the scan that it was born with and, when the robot has returned, moves pieces
