@@ -45,6 +45,7 @@ refused "a negative duration" --duration --duration -5
 refused "an unknown option" --frobnicate --frobnicate
 refused "an unknown entropy" --entropy --entropy gibbs
 refused "a compass of another kind" --compass --compass maybe
+refused "loops of another kind" --loops --loops maybe
 refused "negative threads" --threads --threads -1
 
 mkdir -p blocked/overview.png
@@ -53,7 +54,7 @@ rm -r blocked
 
 help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
 [ -s stderr ] && fail "--help: something on stderr"
-for option in help map cells entropy alpha filter duration seed start resolution threads output quiet; do
+for option in help map cells entropy alpha filter compass loops duration seed start resolution threads output quiet; do
   grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
 done
 
@@ -87,7 +88,7 @@ for file in metrics.json map.yaml map.png trajectory_estimated.tum trajectory_tr
   [ -s one/$file ] || fail "$file is missing or empty"
 done
 [ "$(ls -A one | wc -l)" -eq 8 ] || fail "other files than promised: $(ls -A one)"
-for key in map seed entropy alpha resolution_m duration_s scans distance_m collisions decisions stop_reason \
+for key in map seed entropy alpha compass loops resolution_m duration_s scans distance_m collisions decisions stop_reason \
   translation_rmse_m translation_mae_m heading_rmse_rad nees_mean map_error map_uncertainty_bits_per_step \
   explored_fraction explored_area_m2 wall_time_s real_time_factor threads; do
   grep -q "^  \"$key\": " one/metrics.json || fail "metrics.json lacks $key"

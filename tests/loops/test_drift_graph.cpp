@@ -102,6 +102,15 @@ TEST_CASE("A graph of the frame alone has a solution", "[loops]") {
   CHECK(graph.solve().size() == 1);
 }
 
+TEST_CASE("A graph that leaves a body free is refused", "[loops]") {
+  DriftGraph graph;
+  for (int body = 0; body < 3; ++body) graph.add_body();
+  graph.add_link(0, 1, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+  CHECK_THROWS_WITH(graph.solve(), Catch::Contains("1 links") && Catch::Contains("3 bodies"));
+  graph.add_link(1, 2, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Ones());
+  CHECK((graph.solve()[2] - Eigen::Vector3d::Ones()).norm() < 1e-12);
+}
+
 TEST_CASE("A link between bodies that are not there is refused", "[loops]") {
   DriftGraph graph;
   graph.add_body();

@@ -1,0 +1,57 @@
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "incognita/core/random.hpp"
+#include "incognita/estimation/dvl_ekf.hpp"
+#include "incognita/map/map.hpp"
+#include "room.hpp"
+
+// Counts what the whole test program allocates by new. Eigen's own allocations do not come by it, but fixed sizes have none.
+namespace {
+std::atomic<std::size_t> allocations{0};
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+
+using namespace incognita;
+
+TEST_CASE("A filter in a room that it knows allocates nothing for a scan, and for pieces only now and then", "[estimation]") {
+  const std::vector<room::Wall> walls = room::box(room::kTurned);
+  Random random(1);
+  DvlEkf filter;
+  Map<> map;
+  std::size_t in_correct = 0;
+  std::size_t in_learn = 0;
+  for (int scan_number = 0; scan_number < 1500; ++scan_number) {
+    const double along_m = 0.5 * std::sin(0.01 * scan_number);
+    const Pose2 truth{along_m, 0.0, 0.0};
+    Scan<2> scan = room::scan_of(walls, truth);
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      if (scan.reading(beam) == Reading::hit) scan.set_range_m(beam, scan.range_m(beam) + random.normal(0.0, 0.01));
+    }
+    const double step_m = 0.5 * (std::sin(0.01 * (scan_number + 1)) - std::sin(0.01 * scan_number));
+    const bool is_warm = scan_number >= 1000;
+    std::size_t before = allocations;
+    const CorrectionReport report = filter.correct(scan, map);
+    if (is_warm) in_correct += allocations - before;
+    REQUIRE(report.trusted);
+    map.update(scan, filter.belief().pose, filter.belief().covariance);
+    before = allocations;
+    filter.learn(scan);
+    if (is_warm) in_learn += allocations - before;
+    filter.predict({step_m, 0.0, 0.0}, 0.1);
+  }
+  CHECK(in_correct == 0);
+  CHECK(in_learn <= 3);  // the list of pieces, which doubles
+}
