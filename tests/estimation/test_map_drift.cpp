@@ -235,6 +235,43 @@ TEST_CASE("Pieces that are turned again move further", "[estimation]") {
   REQUIRE(twist_of(drift, born).norm() == 0.0);
 }
 
+TEST_CASE("A twist moves poses as a small motion about the origin, and back", "[estimation]") {
+  Random random(12);
+  for (int draw = 0; draw < 100; ++draw) {
+    const Pose2 pose{random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0), random.uniform(-3.1, 3.1)};
+    const Eigen::Vector3d twist(random.normal(0.0, 0.1), random.normal(0.0, 0.1), random.normal(0.0, 1e-4));
+    const Pose2 moved = moved_pose(pose, twist);
+    const Pose2 exact = Pose2{twist[0], twist[1], twist[2]} * pose;
+    REQUIRE(distance(moved.position(), exact.position()) < 1e-5);
+    REQUIRE(std::abs(angle_between_rad(moved.yaw_rad, exact.yaw_rad)) < 1e-12);
+    REQUIRE((twist_between(pose, moved) - twist).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("Pieces are shifted by what they were moved and have not settled", "[estimation]") {
+  MapDrift::Params params;
+  params.scans_per_piece = 2;
+  MapDrift drift(params);
+  const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  CHECK(drift.piece_of_scan(covariance, {0.0, 0.0}) == 0);
+  CHECK(drift.piece_of_scan(covariance, {0.0, 0.0}) == 0);
+  CHECK(drift.piece_of_scan(covariance, {0.0, 0.0}) == 1);
+  drift.begin_piece();
+  CHECK(drift.piece_of_scan(covariance, {0.0, 0.0}) == 2);
+  CHECK(drift.piece_of_scan(covariance, {0.0, 0.0}) == 2);
+  CHECK(drift.piece_of_scan(covariance, {0.0, 0.0}) == 3);
+
+  const Eigen::Vector2d at_m(3.0, -2.0);
+  drift.set_twist(1, {0.1, 0.2, 0.01});
+  CHECK((drift.shift_m(1, at_m) - Eigen::Vector2d(0.1 + 0.02, 0.2 + 0.03)).norm() < 1e-12);
+  CHECK(drift.shift_m(0, at_m).norm() == 0.0);
+  drift.settle();
+  CHECK(drift.shift_m(1, at_m).norm() == 0.0);
+  CHECK(drift.twist(1) == Eigen::Vector3d(0.1, 0.2, 0.01));
+  drift.set_twist(1, {0.1, 0.25, 0.01});
+  CHECK((drift.shift_m(1, at_m) - Eigen::Vector2d(0.0, 0.05)).norm() < 1e-12);
+}
+
 TEST_CASE("Drifts stay covariances through thousands of pieces, references and turns", "[estimation]") {
   Random random(9);
   for (int draw = 0; draw < 10; ++draw) {

@@ -213,6 +213,45 @@ TEST_CASE("A surface map that was told its room holds the same as one that grows
   }
 }
 
+TEST_CASE("Surfaces that are moved are found where they then lie, by piece, with their normals", "[estimation]") {
+  Random random(5);
+  SurfaceMap<2> map;
+  const auto stays = [](int /*piece*/, const Eigen::Vector2d& /*at_m*/) { return Eigen::Vector2d(0.0, 0.0); };
+  const Eigen::Vector2d up = unit(0.5 * kPi);
+  for (int piece = 0; piece < 2; ++piece) {
+    for (double x_m = 0.0; x_m < 2.0; x_m += 0.01) {
+      map.add({x_m, 1.03 + 2.0 * piece + random.normal(0.0, 0.003)}, up, piece, stays);
+    }
+  }
+  map.refresh_normals();
+  const std::size_t size = map.size();
+  const Eigen::Vector2d moved(0.13, -0.32);
+  map.rearrange([&](int piece, const Eigen::Vector2d&) { return piece == 1 ? moved : Eigen::Vector2d(0.0, 0.0); });
+  CHECK(map.size() == size);
+  CHECK(surfaces_near<2>(map, {1.0, 3.13}).empty());
+  for (const Eigen::Vector2d& at_m : {Eigen::Vector2d(1.0, 1.03), Eigen::Vector2d(1.0, 3.03 + moved.y())}) {
+    const auto found = surfaces_near<2>(map, at_m);
+    REQUIRE(found.size() >= 2);
+    for (const Surface<2>& surface : found) {
+      CHECK(std::abs(surface.mean_m.y() - at_m.y()) < 0.01);
+      CHECK(surface.planar);
+      CHECK(surface.normal.y() < -0.99);
+      CHECK(surface.piece == (at_m.y() > 2.0 ? 1 : 0));
+    }
+  }
+}
+
+TEST_CASE("A surface that finds no side free where it is moved is left out", "[estimation]") {
+  SurfaceMap<2> map;
+  for (int piece = 0; piece < 5; ++piece) {
+    map.add({0.05 + 0.3 * piece, 0.05}, unit(0.0), piece, [](int, const Eigen::Vector2d&) { return Eigen::Vector2d(0.0, 0.0); });
+  }
+  REQUIRE(map.size() == 5);
+  map.rearrange([](int piece, const Eigen::Vector2d&) { return Eigen::Vector2d(-0.3 * piece, 0.0); });
+  CHECK(map.size() == SurfaceMap<2>::sides_max);
+  CHECK(surfaces_near<2>(map, {0.05, 0.05}).size() == SurfaceMap<2>::sides_max);
+}
+
 TEST_CASE("Planes in space get their normal, and lines in space get none", "[estimation]") {
   Random random(5);
   const Point<3> normal = Point<3>(0.3, -0.5, 0.8).normalized();

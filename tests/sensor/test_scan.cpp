@@ -107,3 +107,13 @@ TEST_CASE("A scan has as many ranges as beams", "[sensor]") {
   REQUIRE_THROWS_AS(Scan<2>(circular_beams(0, 10.0), {1.0}), std::invalid_argument);
   REQUIRE(Scan<2>(circular_beams(0, 10.0), {}).size() == 0);
 }
+
+TEST_CASE("Scans of the same beams are told from others, whatever they read", "[sensor]") {
+  Scan<2> scan(circular_beams(8, 10.0));
+  Scan<2> other(circular_beams(8, 10.0));
+  other.set_range_m(3, 1.0);
+  CHECK(scan.has_beams_of(other));
+  CHECK_FALSE(scan.has_beams_of(Scan<2>(circular_beams(9, 10.0))));
+  CHECK_FALSE(scan.has_beams_of(Scan<2>(circular_beams(8, 9.0))));
+  CHECK_FALSE(scan.has_beams_of(Scan<2>(planar_beams(8, 0.1, 0.785398163, 10.0))));
+}
