@@ -77,7 +77,7 @@ struct Replay {
   incognita::SimulatorParams simulated;
   simulated.sensor.beams = incognita::circular_beams(params.beams, range_max_m);
   incognita::Simulator simulator(world, mission.T_world_start, simulated, noise_seeds + params.seed);
-  People people(world, noise_seeds + params.seed);
+  People people(world, 2 * noise_seeds + params.seed);
   const incognita::Pose2 T_map_start = random_frame(params.seed);
   incognita::LoopClosingDvlEkf::Params filter_params;
   filter_params.start.pose = T_map_start;

@@ -60,7 +60,7 @@ inline void print_missions_header() {
       "|---|---|---|---|---|---|---|---|\n");
 }
 
-/// One row a group. Costs are medians over a drive's scans, then over the drives.
+/// One row a group. Costs are the median and the mean over a drive's scans, each then the median over the drives.
 inline void print_replays(const std::vector<ReplayGroup>& groups) {
   std::printf(
       "| building | beams | compass | loops | position RMSE, m: mean [95 %%] | worst | heading RMSE, mrad: mean [95 "

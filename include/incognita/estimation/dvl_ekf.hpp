@@ -9,6 +9,9 @@
 #include <type_traits>
 #include <vector>
 
+#include <Eigen/Core>
+#include <Eigen/LU>
+
 #include "incognita/estimation/compass.hpp"
 #include "incognita/estimation/correlative_search.hpp"
 #include "incognita/estimation/estimator.hpp"
@@ -35,9 +38,9 @@ struct NoLoops {
 /// corrects position and heading against sub-cell surfaces. Form::ray is Lemma 4.1 to the letter, hits associated by
 /// casting the beam in the belief: it does not observe the heading and drifts (reading: 1.5 m and more), so it is there
 /// for comparison. Decisions are predicted with the ray form, whichever form estimates.
-/// A template, so that who includes this header and does not use it does not pay for it; planar so far. Loops is what it does
-/// when the robot returns to where it was: NoLoops, nothing beyond registering to the oldest surfaces; LoopClosure
-/// moves the map, see loops/.
+/// A template, so that who includes this header and does not use it does not pay for it; planar so far. Loops is what it
+/// does when the robot returns to where it was: NoLoops, nothing beyond registering to the oldest surfaces; LoopClosure moves
+/// the map, see loops/.
 template <int Dim = 2, class Loops = NoLoops>
 class BasicDvlEkf {
   static_assert(Dim == 2, "the filter is planar");
@@ -130,7 +133,7 @@ class BasicDvlEkf {
   void predict(const Pose2& increment, double duration_s) {
     require_motion("DvlEkf::predict", increment, duration_s);
     believe(propagate({belief_.pose, in_map_}, increment, params_.noise, duration_s));
-    if constexpr (closes_loops) loops_.add_step(params_.noise.covariance(duration_s));
+    if constexpr (closes_loops) loops_.add_motion(params_.noise.covariance(duration_s), belief_.pose.position());
     if (!is_ready()) driven_ = propagate(driven_, increment, params_.noise, duration_s);
   }
 
@@ -153,9 +156,17 @@ class BasicDvlEkf {
   /// Adds the scan's end points, seen from the belief, to the surfaces.
   void learn(const Scan<Dim>& scan) {
     if (params_.form != Form::registration) return;
-    const Eigen::Matrix2d rotation = belief_.pose.rotation();
     const std::size_t pieces_before = drift_.size();
     const int piece = drift_.piece_of_scan(in_map_, belief_.pose.position());
+    if constexpr (closes_loops) {
+      if (drift_.size() > pieces_before) {
+        const auto moved = loops_.add_keyframe({scan, belief_.pose, heading_}, params_.registration, surfaces_, drift_);
+        believe({moved_pose(belief_.pose, moved), in_map_});
+      }
+      loops_.keep(scan, belief_, piece, drift_);
+      heading_.reset();
+    }
+    const Eigen::Matrix2d rotation = belief_.pose.rotation();
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
       if (scan.reading(beam) != Reading::hit) continue;
       const Eigen::Vector2d direction = rotation * scan.direction(beam);
@@ -163,12 +174,6 @@ class BasicDvlEkf {
                     [this](int of, const Eigen::Vector2d& at_m) { return drift_.shift_m(of, at_m); });
     }
     surfaces_.refresh_normals();
-    if constexpr (closes_loops) {
-      loops_.keep(scan, belief_, piece, drift_);
-      if (drift_.size() == pieces_before) return;
-      const auto moved = loops_.add_keyframe({scan, belief_.pose, heading_}, params_.registration, surfaces_, drift_);
-      believe({moved_pose(belief_.pose, moved), in_map_});
-    }
   }
 
   /// A heading measured directly (a compass, the paper's orientation aid of 0.01 rad): a scalar update.
@@ -187,6 +192,7 @@ class BasicDvlEkf {
     const Eigen::Matrix3d in_map = yaw_updated_covariance(in_map_, drift_.covariance()(2, 2) + variance_rad2);
     (void)drift_.correct_turn(off_rad, in_map_rad2 + variance_rad2);
     believe({pose, in_map});
+    heading_ = {yaw_rad, variance_rad2};
   }
 
   [[nodiscard]] PoseBelief imagine_motion(const PoseBelief& belief, const Pose2& increment, double duration_s) const {
@@ -221,6 +227,7 @@ class BasicDvlEkf {
     const BasicDvlEkf& filter;
     const MapType& map;
 
+    [[nodiscard]] bool admits(const Surface<Dim>& /*surface*/) const { return true; }
     [[nodiscard]] double occupied_probability(const Surface<Dim>& surface) const {
       // The belief's hits lie a little behind the measured face, so look there too.
       const Eigen::Vector2d face_m = sum(surface.mean_m, shift_m(surface, surface.mean_m));
@@ -244,8 +251,8 @@ class BasicDvlEkf {
   }
 
   void correct_by_compass(const Scan<Dim>& scan) {
-    heading_ = compass_.measure(scan, belief_.pose.yaw_rad);
-    if (heading_) correct_heading(heading_->yaw_rad, std::sqrt(heading_->variance_rad2));
+    const auto heading = compass_.measure(scan, belief_.pose.yaw_rad);
+    if (heading) correct_heading(heading->yaw_rad, std::sqrt(heading->variance_rad2));
   }
 
   /// Registers to the oldest surfaces in sight from now on. A few beams are enough to tell which.
@@ -278,7 +285,6 @@ class BasicDvlEkf {
       const auto& candidates = search_.find(scan, surfaces_, predicted, params_.search_window);
       if (!candidates.empty()) believe({candidates.front().pose, in_map_});
     }
-    heading_.reset();
     if (params_.uses_compass && doubtful_scans_ == 0) correct_by_compass(scan);
     choose_reference(scan, surface_belief);
     const auto fit_from = [&](const PoseBelief& start, const RegistrationParams& params, std::size_t beams_max) {
@@ -308,6 +314,7 @@ class BasicDvlEkf {
             });
         if (found) {
           if constexpr (closes_loops) report_jump(predicted.pose, found->registration.belief);
+          heading_.reset();  // it was heard elsewhere
           fit = *found;
         }
         report.relocated = found.has_value();
@@ -319,6 +326,7 @@ class BasicDvlEkf {
     if (!report.trusted) {
       drift_.restore(reference);
       believe(predicted);
+      heading_.reset();
       report.lost = doubtful_scans_ >= params_.lost_scans;
       return report;
     }
@@ -345,10 +353,11 @@ class BasicDvlEkf {
                               angle_between_rad(from.yaw_rad, to.pose.yaw_rad));
     const bool may_be_drift = off.dot(covariance.inverse() * off) < jump_mahalanobis2_max;
     if (may_be_drift) {
-      loops_.add_step(to.covariance, twist_between(from, to.pose));
+      loops_.add_jump(from, to);
     } else {
-      loops_.add_step(diagonal_covariance(carried_m * carried_m, carried_m * carried_m, std::numbers::pi));
+      loops_.add_motion(diagonal_covariance(carried_m * carried_m, carried_m * carried_m, std::numbers::pi), from.position());
     }
+    drift_.begin_piece();
   }
 
   /// Heading as predicted at first, all around now and then.
@@ -409,7 +418,7 @@ class BasicDvlEkf {
   CorrelativeSearch<Dim> search_;
   Relocation relocation_;
   Loops loops_;
-  std::optional<Compass::Heading> heading_;  ///< by the compass, of the last scan
+  std::optional<Compass::Heading> heading_;  ///< measured since the last scan that was learned
   int doubtful_scans_ = 0;  ///< in a row
   int scans_since_search_ = 0;
   int scans_held_ = 0;

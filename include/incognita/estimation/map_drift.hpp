@@ -40,8 +40,8 @@ namespace incognita {
 /// only older pieces reduce. Each piece stands for the surfaces first seen within a few scans; its drift is that of the
 /// reference at its birth plus a share of the pose's covariance in it. Pieces with less drift than others are older
 /// links of the chain, so two pieces differ by the difference of their covariances. What is measured of a piece's turn moves
-/// it and, by their common part, all others; nothing stored is touched, a piece's surfaces are shifted as they are
-/// looked at. Not thread safe.
+/// it and, by their common part, all others. A piece's surfaces are shifted as they are looked at, until somebody moves
+/// them where they are stored and says so by settle(). Not thread safe.
 class MapDrift {
  public:
   struct Params {
@@ -141,7 +141,7 @@ class MapDrift {
   /// How far a piece was moved since it was born: a twist about the map's origin.
   [[nodiscard]] const Eigen::Vector3d& twist(int piece) const { return pieces_[static_cast<std::size_t>(piece)].twist; }
 
-  /// Moves a piece to where it is now known to be. What is known of its drift stays: it was rather too much before.
+  /// Moves a piece to where it is now known to be. The covariance of its drift stays as it was, so it is cautious.
   void set_twist(int piece, const Eigen::Vector3d& twist) { pieces_[static_cast<std::size_t>(piece)].twist = twist; }
 
   /// All surfaces have been moved by shift_m of their piece and are stored where they are: shifts begin anew at 0.

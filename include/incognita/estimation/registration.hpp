@@ -67,6 +67,9 @@ struct SurfaceMatch {
 
 /// What is believed of surfaces beyond what was measured of them: here, that they are walls where they were measured.
 struct CertainSurfaces {
+  /// Whether a beam may be associated with it at all.
+  [[nodiscard]] bool admits(const Surface<2>& /*surface*/) const { return true; }
+
   /// That something is there, in [0, 1]; < 0 leaves the surface out.
   [[nodiscard]] double occupied_probability(const Surface<2>& /*surface*/) const { return 1.0; }
 
@@ -93,7 +96,7 @@ template <class SurfaceBelief = CertainSurfaces>
   double line_cost_m2 = std::numeric_limits<double>::infinity();
   double point_cost_m2 = params.point_distance_max_m * params.point_distance_max_m;
   surfaces.for_each_near(end_point_m, [&](const Surface<2>& surface) {
-    if (!surface.faces(direction)) return;
+    if (!surface.faces(direction) || !belief.admits(surface)) return;
     const Eigen::Vector2d offset_m =
         difference(difference(end_point_m, surface.mean_m), belief.shift_m(surface, end_point_m));
     const double distance_m2 = dot(offset_m, offset_m);

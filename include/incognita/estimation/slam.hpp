@@ -62,6 +62,11 @@ class Slam {
   /// O(scans kept): about 0.1 ms each.
   void redraw() {
     MapType fresh = given_;
+    const IndexBox<2>& box = map_.grid().box();
+    if (!box.empty()) {
+      const IndexBox<2> last{box.lower, {box.upper[0] - 1, box.upper[1] - 1}};
+      fresh.reserve({map_.lattice().center_m(last.lower), map_.lattice().center_m(last.upper)});
+    }
     filter_.loops().kept().for_each(filter_.drift(), [&](const Scan<2>& scan, const PoseBelief& belief) {
       (void)fresh.update(scan, belief.pose, belief.covariance);
     });

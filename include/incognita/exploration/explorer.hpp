@@ -124,7 +124,7 @@ class Explorer {
     const SlamReport report = slam_.observe(scan);
     correction_ = report.correction;
     if (!correction_.lost) found_s_ = time_s_;
-    if (correction_.relocated) must_decide_ = true;
+    if (correction_.relocated) start_anew();
     if (!correction_.trusted) return report.scan;
     if (report.is_redrawn) retrace();
     reached_ = enclosing_box(reached_, cells_in_reach(map().lattice(), scan, belief().pose, map().hit_push_m()));
@@ -196,13 +196,20 @@ class Explorer {
     });
   }
 
+  /// The robot is not where it was believed to be.
+  void start_anew() {
+    retreat_.reset();
+    must_decide_ = true;
+  }
+
   /// The map was drawn again, so the trail must be, and what was decided may not hold in it.
   void retrace() {
     if constexpr (RedrawsMaps<Filter>) {
       trail_.clear();
       const Filter& filter = slam_.filter();
       filter.loops().kept().for_each_pose(filter.drift(), [&](const Pose2& pose) { extend_trail(pose.position()); });
-      must_decide_ = true;
+      reached_ = enclosing_box(reached_, map().grid().box());
+      start_anew();
     }
   }
 

@@ -15,7 +15,8 @@
 namespace incognita {
 
 /// Scans in the order of their time, each tied to a piece of the map (see MapDrift). Memory is bounded: when scans_max are
-/// held, every second one is let go, and of those that follow only as many are kept. 4 bytes a beam and 160 a scan.
+/// held, every second one is let go, and of those that follow only as many are kept; a map drawn from them then rests on half
+/// of the evidence. 4 bytes a beam and 160 a scan, and 24 a beam for each pattern of beams that was ever used.
 class KeptScans {
  public:
   /// Throws std::invalid_argument unless scans_max >= 2.
@@ -27,10 +28,9 @@ class KeptScans {
 
   /// Keeps a scan taken at `belief`, while its piece was moved by `twist`; or not, when there have been too many.
   void add(const Scan<2>& scan, const PoseBelief& belief, int piece, const Eigen::Vector3d& twist) {
-    if (seen_++ % stride_ != 0) return;
     if (kept_.size() == scans_max_) thin_out();
-    if (patterns_.empty() || !patterns_.back().has_beams_of(scan)) patterns_.push_back(scan);
-    Kept kept{belief, twist, piece, patterns_.size() - 1, std::vector<float>(scan.size())};
+    if (seen_++ % stride_ != 0) return;
+    Kept kept{belief, twist, piece, pattern_of(scan), std::vector<float>(scan.size())};
     for (std::size_t beam = 0; beam < scan.size(); ++beam) kept.ranges_m[beam] = static_cast<float>(scan.range_m(beam));
     kept_.push_back(std::move(kept));
   }
@@ -77,6 +77,14 @@ class KeptScans {
     std::size_t pattern;
     std::vector<float> ranges_m;
   };
+
+  [[nodiscard]] std::size_t pattern_of(const Scan<2>& scan) {
+    std::size_t pattern = patterns_.size();
+    while (pattern > 0 && !patterns_[pattern - 1].has_beams_of(scan)) --pattern;
+    if (pattern > 0) return pattern - 1;
+    patterns_.push_back(scan);
+    return patterns_.size() - 1;
+  }
 
   [[nodiscard]] static Pose2 pose_now(const Kept& kept, const MapDrift& drift) {
     return moved_pose(kept.belief.pose, difference(drift.twist(kept.piece), kept.twist));

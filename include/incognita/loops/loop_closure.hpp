@@ -31,13 +31,13 @@ namespace incognita {
 /// kept, by whoever owns it (see is_redraw_due), when something has moved noticeably. What a pose's covariance says of the
 /// map's drift is not reduced. A discrepancy beyond the reach of registration (0.3 m) is not seen here, see Relocation.
 /// The Loops of a BasicDvlEkf. Memory: some 3 kB a piece, of which there is one in ten scans, and the scans kept. Time: in
-/// buildings about 0.1 ms a scan in the mean, most of it in solutions of 10 to 50 ms at most every tenth piece. Not thread
-/// safe.
+/// buildings about 0.1 ms a scan in the mean, most of it in solutions of 10 to 50 ms at most every tenth piece; both grow with
+/// the time driven. Not thread safe.
 class LoopClosure {
  public:
   struct Params {
     bool closes_loops = true;           ///< false: nothing is measured, kept or moved
-    double age_share_min = 0.1;         ///< of a scan's beams must meet old surfaces, and as many new ones, in (0, 0.5]
+    double age_share_min = 0.1;         ///< of a scan's beams must meet old surfaces, and at least so many new ones, in (0, 0.5]
     int age_gap_pieces = 30;            ///< between old and new, >= 1
     int pieces_between_solutions = 10;  ///< >= 1
     double redraw_shift_m = 0.05;       ///< a belief is drawn again when it is off by this much: half a cell of 0.1 m
@@ -70,11 +70,16 @@ class LoopClosure {
     if (params_.closes_loops) kept_.add(scan, belief, piece, drift.twist(piece));
   }
 
-  /// The robot has moved, with this much of noise. Or it turned out to be elsewhere: a twist `jump` away from where it was
-  /// believed, the covariance being that of such a jump.
-  void add_step(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& jump = {0.0, 0.0, 0.0}) {
-    step_covariance_ += covariance;
-    step_jump_ += jump;
+  /// The robot has moved at `position_m`, with noise of this covariance.
+  void add_motion(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& position_m) {
+    step_covariance_ += carried_covariance(covariance, -position_m);
+  }
+
+  /// The robot was found elsewhere because the map around had drifted: what came before should be where it now is.
+  void add_jump(const Pose2& from, const PoseBelief& to) {
+    add_motion(to.covariance, to.pose.position());
+    step_jump_ += twist_between(from, to.pose);
+    is_solution_due_ = true;
   }
 
   /// Whether a robot that was registered to piece `from`, among the youngest, and now is to piece `to` has returned: a piece
@@ -84,34 +89,30 @@ class LoopClosure {
     return params_.closes_loops && was_in_the_new && from - to >= params_.age_gap_pieces;
   }
 
-  /// Measures the youngest piece of `drift` by the scan that it was born with and, when the robot has returned, moves pieces
-  /// and surfaces. Returns the twist by which the robot's pose moves with its piece.
+  /// Measures the youngest piece of `drift` by the scan that it is born with, whose surfaces must not have been added yet, and,
+  /// when the robot has returned, moves pieces and surfaces. Returns the twist by which the robot's pose moves with its
+  /// piece.
   [[nodiscard]] Eigen::Vector3d add_keyframe(const Keyframe& keyframe, const RegistrationParams& registration,
                                              SurfaceMap<2>& surfaces, MapDrift& drift) {
-    if (!params_.closes_loops) return Eigen::Vector3d::Zero();
-    const int piece = graph_.add_body();
-    if (piece == 0) return Eigen::Vector3d::Zero();
-    link_to_last(piece, keyframe.pose, drift);
+    const Eigen::Vector3d unmoved = Eigen::Vector3d::Zero();
+    if (!params_.closes_loops) return unmoved;
+    const int piece = static_cast<int>(drift.size()) - 1;
+    while (graph_.bodies() <= piece) {  // once, but for pieces whose scan could not be learned
+      const int body = graph_.add_body();
+      if (body > 0) link_to_last(body, drift);
+    }
+    if (piece == 0) return unmoved;
     if (keyframe.heading) link_to_heading(piece, keyframe.pose.yaw_rad, *keyframe.heading, drift);
-    const int first_new = first_after_gap(pieces_met(keyframe, registration, surfaces, {drift, 0, piece}), keyframe.scan.size());
-    if (first_new == 0) {
+    const std::vector<int> met = pieces_met(keyframe, registration, surfaces, {drift, 0, piece});
+    if (met.empty()) return unmoved;
+    if (const int first_new = first_after_gap(met, keyframe.scan.size()); first_new == 0) {
       link_to_surfaces(piece, keyframe, keyframe.pose, registration, surfaces, {drift, 0, piece});
-      return Eigen::Vector3d::Zero();
+    } else {
+      if (link_to_age(piece, keyframe, registration, surfaces, {drift, 0, first_new})) is_solution_due_ = true;
+      (void)link_to_age(piece, keyframe, registration, surfaces, {drift, first_new, piece});
     }
-    const bool has_returned = link_to_age(piece, keyframe, registration, surfaces, {drift, 0, first_new});
-    (void)link_to_age(piece, keyframe, registration, surfaces, {drift, first_new, piece});
-    if (!has_returned || piece < solved_at_ + params_.pieces_between_solutions) return Eigen::Vector3d::Zero();
-    solved_at_ = piece;
-    const Eigen::Vector3d before = drift.twist(piece);
-    const std::vector<Eigen::Vector3d> twists = graph_.solve();
-    for (std::size_t body = 0; body < twists.size(); ++body) drift.set_twist(static_cast<int>(body), twists[body]);
-    const Eigen::Vector3d moved = drift.twist(piece) - before;
-    if (kept_.unsettled_max_m(drift) > params_.redraw_shift_m) {
-      surfaces.rearrange([&drift](int of, const Eigen::Vector2d& at_m) { return drift.shift_m(of, at_m); });
-      drift.settle();
-      is_redraw_due_ = true;
-    }
-    return moved;
+    if (!is_solution_due_ || piece < solved_at_ + params_.pieces_between_solutions) return unmoved;
+    return solve(piece, surfaces, drift);
   }
 
   /// Whether the kept scans are now known to have been taken so far from where the belief has them that it should be drawn
@@ -129,9 +130,8 @@ class LoopClosure {
     int first;
     int last;
 
-    [[nodiscard]] double occupied_probability(const Surface<2>& surface) const {
-      return surface.piece >= first && surface.piece < last ? 1.0 : -1.0;
-    }
+    [[nodiscard]] bool admits(const Surface<2>& surface) const { return surface.piece >= first && surface.piece < last; }
+    [[nodiscard]] double occupied_probability(const Surface<2>& /*surface*/) const { return 1.0; }
     [[nodiscard]] double excess_variance_m2(const Surface<2>& /*surface*/, const Eigen::Vector3d& /*jacobian*/) const {
       return 0.0;
     }
@@ -140,13 +140,26 @@ class LoopClosure {
     }
   };
 
-  /// Odometry since the last piece was born.
-  void link_to_last(int piece, const Pose2& pose, const MapDrift& drift) {
+  /// Moves everything to where it costs least, and returns how far `piece` has moved.
+  [[nodiscard]] Eigen::Vector3d solve(int piece, SurfaceMap<2>& surfaces, MapDrift& drift) {
+    is_solution_due_ = false;
+    solved_at_ = piece;
+    const Eigen::Vector3d before = drift.twist(piece);
+    const std::vector<Eigen::Vector3d> twists = graph_.solve();
+    for (std::size_t body = 0; body < twists.size(); ++body) drift.set_twist(static_cast<int>(body), twists[body]);
+    if (kept_.unsettled_max_m(drift) > params_.redraw_shift_m) {
+      surfaces.rearrange([&drift](int of, const Eigen::Vector2d& at_m) { return drift.shift_m(of, at_m); });
+      drift.settle();
+      is_redraw_due_ = true;
+    }
+    return drift.twist(piece) - before;
+  }
+
+  /// The way since the last piece was born, as the filter has it.
+  void link_to_last(int piece, const MapDrift& drift) {
     // No step is known better than to a millimetre and a milliradian, nor has a zero covariance an inverse.
-    const Eigen::Matrix3d covariance = step_covariance_ + 1e-6 * Eigen::Matrix3d::Identity();
-    const Eigen::Matrix3d information = carried_covariance(covariance, -pose.position()).inverse();
-    graph_.add_link(piece - 1, piece, information,
-                    information * (drift.twist(piece) - drift.twist(piece - 1) - step_jump_));
+    const Eigen::Matrix3d information = (step_covariance_ + 1e-6 * Eigen::Matrix3d::Identity()).inverse();
+    graph_.add_link(piece - 1, piece, information, information * (drift_between(piece - 1, piece, drift) - step_jump_));
     step_covariance_ = Eigen::Matrix3d::Zero();
     step_jump_ = Eigen::Vector3d::Zero();
   }
@@ -169,7 +182,7 @@ class LoopClosure {
       const Eigen::Vector2d direction = rotation * scan.direction(beam);
       const Eigen::Vector2d end_point_m = pose.position() + direction * scan.range_m(beam);
       const SurfaceMatch match = match_surface(surfaces, end_point_m, direction, registration, of_age);
-      if (match.surface != nullptr && of_age.occupied_probability(*match.surface) > 0.0) visit(match, end_point_m);
+      if (match.surface != nullptr) visit(match, end_point_m);
     }
   }
 
@@ -260,9 +273,10 @@ class LoopClosure {
   Params params_;
   DriftGraph graph_;
   KeptScans kept_;
-  Eigen::Matrix3d step_covariance_ = Eigen::Matrix3d::Zero();  // since the last piece was born
+  Eigen::Matrix3d step_covariance_ = Eigen::Matrix3d::Zero();  // of twists, since the last piece was born
   Eigen::Vector3d step_jump_ = Eigen::Vector3d::Zero();
-  int solved_at_ = 0;
+  int solved_at_ = 0;  // by the youngest piece of then
+  bool is_solution_due_ = false;
   bool is_redraw_due_ = false;
 };
 

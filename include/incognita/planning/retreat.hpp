@@ -27,7 +27,7 @@ struct RetreatParams {
   double aim_rad = 0.1;        ///< it drives once its heading is this near to the way out
   double look_m = 0.5;         ///< ways that are free for this long are as good as each other
   int headings = 36;           ///< how many ways are tried
-  int blocked_scans_max = 10;  ///< a way out is given up when it was blocked for so many scans in a row
+  int blocked_scans_max = 10;  ///< a way out is given up when it was blocked more often than this in a row
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
