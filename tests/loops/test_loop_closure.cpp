@@ -9,7 +9,9 @@
 
 #include "../estimation/room.hpp"
 #include "incognita/core/random.hpp"
+#include "incognita/entropy/behavioral.hpp"
 #include "incognita/estimation/slam.hpp"
+#include "incognita/exploration/explorer.hpp"
 #include "incognita/loops/loop_closure.hpp"
 #include "incognita/map/occupancy.hpp"
 #include "incognita/testing/estimator_laws.hpp"
@@ -139,6 +141,80 @@ TEST_CASE("A ring that does not close is torn without loops, and whole with them
   CHECK(whole.scans_kept > 1000);
   CHECK(whole.error_max_m < 0.6 * torn.error_max_m);
   CHECK(whole.doubled_share < 0.2 * torn.doubled_share);
+}
+
+TEST_CASE("What is new is moved by as much as it is off from what is old, also far off", "[loops]") {
+  Random random(7);
+  for (const double off_m : {0.03, 0.06, 0.1}) {
+    const double towards_rad = random.uniform(-3.0, 3.0);
+    const Eigen::Vector2d off(off_m * std::cos(towards_rad), off_m * std::sin(towards_rad));
+    const std::vector<room::Wall> walls = room::box(room::kTurned);
+    const Pose2 robot = room::kTurned * Pose2{0.3, -0.2, 0.4};
+    MapDrift::Params drift_params;
+    drift_params.scans_per_piece = 1;
+    MapDrift drift(drift_params);
+    SurfaceMap<2> surfaces;
+    LoopClosure loops;
+    const RegistrationParams registration;
+    const Scan<2> nothing(circular_beams(360, 10.0));
+    const int pieces = 41;
+    for (int piece = 0; piece < pieces; ++piece) {
+      REQUIRE(drift.piece_of_scan(diagonal_covariance(1e-4, 1e-4, 1e-5), robot.position()) == piece);
+      REQUIRE(loops.add_keyframe({nothing, robot, {}}, registration, surfaces, drift).norm() == 0.0);
+      loops.keep(nothing, {robot, Eigen::Matrix3d::Zero()}, piece, drift);
+      loops.add_motion(diagonal_covariance(1e-3, 1e-3, 1e-4), robot.position());
+    }
+    // The left half of the room was seen first, the right half last, and put down elsewhere.
+    const Scan<2> scan = room::scan_of(walls, robot, 720);
+    for (int pass = 0; pass < 5; ++pass) {
+      for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+        const Eigen::Vector2d direction = robot.rotation() * scan.direction(beam);
+        const Eigen::Vector2d at_m = robot * scan.end_point_m(beam);
+        const bool is_old = (room::kTurned.inverse() * at_m).x() < 0.0;
+        surfaces.add(is_old ? at_m : at_m + off, direction, is_old ? 0 : pieces - 1,
+                     [](int, const Eigen::Vector2d&) { return Eigen::Vector2d(0.0, 0.0); });
+      }
+    }
+    surfaces.refresh_normals();
+    REQUIRE(drift.piece_of_scan(diagonal_covariance(1e-4, 1e-4, 1e-5), robot.position()) == pieces);
+    const Eigen::Vector3d moved = loops.add_keyframe({scan, robot, {}}, registration, surfaces, drift);
+    CAPTURE(off_m, towards_rad, moved, drift.twist(pieces - 1));
+    CHECK(twist_shift_m(moved, robot.position()).norm() < 0.01);
+    const Eigen::Vector2d shift = twist_shift_m(drift.twist(pieces - 1), robot.position());
+    CHECK((shift + off).norm() < 0.1 * off_m + 0.005);
+    // Those between share it in the order of their birth.
+    for (int piece = 1; piece < pieces; ++piece) {
+      const Eigen::Vector2d at = twist_shift_m(drift.twist(piece), robot.position());
+      const Eigen::Vector2d expected = shift * (static_cast<double>(piece) / (pieces - 1));
+      REQUIRE((at - expected).norm() < 0.03 * off_m + 0.002);
+    }
+    CHECK(loops.is_redraw_due() == (off_m > 0.05));
+  }
+}
+
+TEST_CASE("An explorer whose map is drawn again goes on deciding in it", "[loops]") {
+  const std::vector<room::Wall> walls = ring();
+  const std::vector<Pose2> way = way_around(1.2);
+  LoopClosingDvlEkf::Params filter = closing(true);
+  filter.start.pose = way.front();
+  filter.loops.redraw_shift_m = 1e-6;  // whatever moves
+  ExplorerParams params;
+  params.threads = 1;
+  params.gain.range_max_m = 5.0;
+  Explorer<Map<>, Behavioral, LoopClosingDvlEkf> explorer(params, Map<>{}, Behavioral{}, LoopClosingDvlEkf(filter));
+  Random random(1);
+  int decided_after = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    explorer.move(way[i - 1].inverse() * way[i] * Pose2{0.0, 0.0, random.normal(0.0, 0.002)}, 0.1);
+    const int redraws = explorer.filter().loops().redraws();
+    explorer.observe(room::scan_of(walls, way[i], circular_beams(90, 5.0)));
+    const bool has_decided = explorer.decide();
+    if (explorer.filter().loops().redraws() == redraws) continue;
+    CHECK((has_decided || explorer.stopped()));
+    ++decided_after;
+  }
+  CHECK(decided_after > 0);
+  CHECK((!explorer.stopped() || *explorer.stopped() != StopReason::lost));
 }
 
 TEST_CASE("A filter whose loops are not closed is the filter without loops, to the bit", "[loops]") {
