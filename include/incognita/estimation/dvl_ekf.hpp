@@ -297,13 +297,15 @@ class BasicDvlEkf {
     const std::size_t judged_min = params_.consistency.beams_min;
     CorrectionReport report;
     report.trusted = fit.consistency.holds(params_.consistency);
-    if (!report.trusted || is_unusual(fit.consistency)) {
-      if (!report.trusted) ++doubtful_scans_;
+    const bool is_unusual = relocation_.is_unusual(fit.consistency, judged_min);
+    doubtful_scans_ = report.trusted ? 0 : doubtful_scans_ + 1;
+    unusual_scans_ = report.trusted && !is_unusual ? 0 : unusual_scans_ + 1;
+    if (must_search()) {
       ConsistencyParams all_beams = params_.consistency;
       all_beams.beams_max = scan.size();
       fit.consistency = scan_consistency(map, scan, fit.registration.belief.pose, all_beams);
       const std::size_t all_judged_min = judged_min * std::max<std::size_t>(1, scan.size() / params_.consistency.beams_max);
-      if (doubtful_scans_ > 0 || relocation_.is_unusual(fit.consistency, all_judged_min)) {
+      if (!report.trusted || relocation_.is_unusual(fit.consistency, all_judged_min)) {
         scans_since_search_ = 0;
         RegistrationParams params = params_.registration;
         params.iterations = relocation_iterations;
@@ -331,6 +333,7 @@ class BasicDvlEkf {
       return report;
     }
     doubtful_scans_ = 0;
+    if (report.relocated) unusual_scans_ = 0;
     relocation_.add_usual(fit, judged_min);
     report.associations = fit.registration.associations;
     report.residual_rms_m = fit.registration.residual_rms_m;
@@ -338,10 +341,12 @@ class BasicDvlEkf {
     return report;
   }
 
-  /// Whether to look elsewhere although the map does not contradict the scan.
-  [[nodiscard]] bool is_unusual(const ScanConsistency& consistency) const {
-    return !params_.searches_each_scan && scans_since_search_ >= unusual_search_every &&
-           relocation_.is_unusual(consistency, params_.consistency.beams_min);
+  /// Whether to look elsewhere, also when the map does not contradict the scan but fits it worse than usual. Not at once:
+  /// somebody who passes before the scanner is gone after a few scans, a robot that was carried off stays so.
+  [[nodiscard]] bool must_search() const {
+    if (unusual_scans_ < patience_scans) return false;
+    if (doubtful_scans_ > 0) return true;
+    return !params_.searches_each_scan && scans_since_search_ >= unusual_search_every;
   }
 
   /// The robot was found elsewhere. If the map may have drifted so far, it has; else the robot slipped or was carried off,
@@ -360,9 +365,9 @@ class BasicDvlEkf {
     drift_.begin_piece();
   }
 
-  /// Heading as predicted at first, all around now and then.
+  /// Near at first, then farther; heading as predicted at first, all around now and then.
   [[nodiscard]] SearchWindow relocation_window() const {
-    if (doubtful_scans_ == 0) return {slipped_m, slipped_m, relocation_rad};
+    if (doubtful_scans_ < carried_scans) return {slipped_m, slipped_m, relocation_rad};
     const bool is_wide = doubtful_scans_ % wide_search_every == 0;
     return {carried_m, carried_m, is_wide ? std::numbers::pi : relocation_rad};
   }
@@ -399,6 +404,8 @@ class BasicDvlEkf {
   }
 
   static constexpr std::size_t reference_stride = 4;  ///< beams
+  static constexpr int patience_scans = 3;            ///< unusual ones, before a search
+  static constexpr int carried_scans = 6;             ///< doubtful ones, before a search far away
   static constexpr int wide_search_every = 5;         ///< doubtful scans
   static constexpr int unusual_search_every = 10;     ///< scans
   static constexpr double carried_m = 3.5;  ///< how far a robot may have been carried off
@@ -420,6 +427,7 @@ class BasicDvlEkf {
   Loops loops_;
   std::optional<Compass::Heading> heading_;  ///< measured since the last scan that was learned
   int doubtful_scans_ = 0;  ///< in a row
+  int unusual_scans_ = 0;   ///< in a row, the doubtful ones among them
   int scans_since_search_ = 0;
   int scans_held_ = 0;
 };
