@@ -344,9 +344,9 @@ class BasicDvlEkf {
   /// Whether to look elsewhere, also when the map does not contradict the scan but fits it worse than usual. Not at once:
   /// somebody who passes before the scanner is gone after a few scans, a robot that was carried off stays so.
   [[nodiscard]] bool must_search() const {
-    if (unusual_scans_ < patience_scans) return false;
-    if (doubtful_scans_ > 0) return true;
-    return !params_.searches_each_scan && scans_since_search_ >= unusual_search_every;
+    if (doubtful_scans_ > 0) return doubtful_scans_ >= doubtful_patience_scans;
+    return !params_.searches_each_scan && unusual_scans_ >= unusual_patience_scans &&
+           scans_since_search_ >= unusual_search_every;
   }
 
   /// The robot was found elsewhere. If the map may have drifted so far, it has; else the robot slipped or was carried off,
@@ -365,9 +365,9 @@ class BasicDvlEkf {
     drift_.begin_piece();
   }
 
-  /// Near at first, then farther; heading as predicted at first, all around now and then.
+  /// Heading as predicted at first, all around now and then.
   [[nodiscard]] SearchWindow relocation_window() const {
-    if (doubtful_scans_ < carried_scans) return {slipped_m, slipped_m, relocation_rad};
+    if (doubtful_scans_ == 0) return {slipped_m, slipped_m, relocation_rad};
     const bool is_wide = doubtful_scans_ % wide_search_every == 0;
     return {carried_m, carried_m, is_wide ? std::numbers::pi : relocation_rad};
   }
@@ -404,8 +404,8 @@ class BasicDvlEkf {
   }
 
   static constexpr std::size_t reference_stride = 4;  ///< beams
-  static constexpr int patience_scans = 3;            ///< unusual ones, before a search
-  static constexpr int carried_scans = 6;             ///< doubtful ones, before a search far away
+  static constexpr int unusual_patience_scans = 3;    ///< in a row, before a search
+  static constexpr int doubtful_patience_scans = 5;   ///< in a row, before a search
   static constexpr int wide_search_every = 5;         ///< doubtful scans
   static constexpr int unusual_search_every = 10;     ///< scans
   static constexpr double carried_m = 3.5;  ///< how far a robot may have been carried off
