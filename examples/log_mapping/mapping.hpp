@@ -31,10 +31,10 @@ namespace log_mapping {
   params.registration.gamma = 200.0;
   params.registration.residual_scale_m = 0.02;
   params.surfaces.flatness = 0.1;  // real walls have frames, radiators and shelves
-  // Three sigmas and more of what wheels do in half a metre, and farther than registration reaches.
   // Furniture, glass and people, and a map of few scans: a scan at the right place may contradict half of it.
   params.consistency.share_min = 0.25;
   params.searches_each_scan = true;
+  // Three sigmas and more of what wheels do in half a metre, and farther than registration reaches.
   params.search_window = {0.3, 0.3, 0.21};
   return params;
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "coarse_surfaces.hpp"
 #include "incognita/core/random.hpp"
 #include "incognita/estimation/registration.hpp"
 #include "room.hpp"
@@ -11,15 +12,6 @@
 using namespace incognita;
 
 namespace {
-
-/// Cells of 0.2 m, for surfaces whose means the tests tell by hand.
-SurfaceMap<2>::Params coarse_params() {
-  SurfaceMap<2>::Params params;
-  params.cell_m = 0.2;
-  params.pool_radius_m = 0.3;
-  params.flatness = 0.1;
-  return params;
-}
 
 /// All surfaces are there with one probability.
 struct Certainty : CertainSurfaces {

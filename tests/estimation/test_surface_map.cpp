@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "coarse_surfaces.hpp"
 #include "incognita/core/random.hpp"
 #include "incognita/estimation/surface_map.hpp"
 
@@ -13,15 +14,6 @@ using namespace incognita;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-/// Cells and neighbourhoods wide enough for the points of these tests.
-SurfaceMap<2>::Params coarse_params() {
-  SurfaceMap<2>::Params params;
-  params.cell_m = 0.2;
-  params.pool_radius_m = 0.3;
-  params.flatness = 0.1;
-  return params;
-}
 
 Eigen::Vector2d unit(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
