@@ -45,7 +45,7 @@ struct Replay {
   double scan_median_us = 0.0;         ///< all that is done with a scan, estimator and map
   double scan_mean_us = 0.0;
   double untrusted_share = 0.0;        ///< of the scans
-  double compass_mean_share = 0.0;     ///< Compass::mean_share, the mean over scans
+  double compass_share = 0.0;     ///< Compass::share, the mean over scans
   double compass_heading_share = 0.0;  ///< of the scans in which the compass gave a heading
   double wrongly_occupied_share = 0.0; ///< of the known cells further than 0.2 m from any wall
 };
@@ -94,7 +94,7 @@ struct Replay {
       people.block(scan, mission.T_world_start * simulator.T_start_robot(), simulated.sensor.range_sigma_m);
     }
     if (observer.measure(scan, localiser.belief().pose.yaw_rad)) result.compass_heading_share += 1.0;
-    result.compass_mean_share += observer.mean_share();
+    result.compass_share += observer.share();
     const auto begin = Clock::now();
     const bool trusted = localiser.observe(scan).correction.trusted;
     scan_us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
@@ -112,7 +112,7 @@ struct Replay {
   result.scan_median_us = median(std::move(scan_us));
   result.scan_mean_us /= scans;
   result.untrusted_share /= scans;
-  result.compass_mean_share /= scans;
+  result.compass_share /= scans;
   result.compass_heading_share /= scans;
   result.wrongly_occupied_share =
       wrongly_occupied_share(localiser.map(), world, mission.T_world_start * T_map_start.inverse());

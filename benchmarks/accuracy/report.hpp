@@ -92,7 +92,7 @@ inline void print_compass(const std::vector<ReplayGroup>& groups) {
       "|---|---|---|---|\n");
   for (const ReplayGroup& group : groups) {
     if (!group.uses_compass || !group.closes_loops) continue;
-    const auto share = values_of(group.replays, [](const Replay& r) { return r.compass_mean_share; });
+    const auto share = values_of(group.replays, [](const Replay& r) { return r.compass_share; });
     const auto headings = values_of(group.replays, [](const Replay& r) { return r.compass_heading_share; });
     std::printf("| %s | %zu | %.2f | %.1f %% |\n", group.building.c_str(), group.beams, summarise(share).mean,
                 100.0 * summarise(headings).mean);

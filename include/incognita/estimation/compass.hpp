@@ -37,8 +37,7 @@ struct CompassParams {
   double wall_sigma_walls = 50;     ///< ... by more walls than so many, >= 1
   double inlier_max_rad = 0.05;     ///< a wall this near to the dominant direction belongs to it
   double length_min_m = 3.0;        ///< of all straight pieces together: less says nothing
-  double share_min = 0.6;           ///< below, a scan, or the mean over scans, has no dominant direction
-  double memory_scans = 100;        ///< over how many scans means are kept, >= 1
+  double share_min = 0.6;           ///< below, a scan, or the building, has no dominant direction
   /// Scans of the same walls repeat their errors: how many scans count as one, >= 1. 100 are 10 s before the same walls.
   double scans_a_view = 100;
 
@@ -50,7 +49,6 @@ struct CompassParams {
     require_positive("CompassParams", "length_min_m", length_min_m);
     require(share_min > 0.0 && share_min <= 1.0, "CompassParams", "share_min", share_min, "in (0, 1]");
     require(wall_sigma_walls >= 1.0, "CompassParams", "wall_sigma_walls", wall_sigma_walls, ">= 1");
-    require(memory_scans >= 1.0, "CompassParams", "memory_scans", memory_scans, ">= 1");
     require(scans_a_view >= 1.0, "CompassParams", "scans_a_view", scans_a_view, ">= 1");
   }
 };
@@ -104,7 +102,8 @@ struct CompassParams {
 
 /// Keeps the direction of a building's walls in the map's frame and measures headings by it. The direction is learned as the
 /// mean over all scans, because the first ones are few and may have seen walls that are not like the others. Silent for
-/// scans without a dominant direction, and while the mean over the last scans has none. Not thread safe.
+/// scans without a dominant direction, and while the building has none: two wings at an angle have one each, and it has
+/// none. Not thread safe.
 class Compass {
  public:
   /// A heading and its variance.
@@ -124,31 +123,31 @@ class Compass {
     find_line_segments(scan, params_.segments, segments_);
     const std::optional<WallDirection> seen = wall_direction(segments_, wall_variance_rad2(), params_);
     if (!seen) return std::nullopt;
-    const double memory = std::min(scans_ += 1.0, params_.memory_scans);
-    mean_share_ += (seen->share - mean_share_) / memory;
     const auto walls = static_cast<double>(seen->walls);
     walls_ += walls;
     wall_scatter_rad2_ += (seen->wall_scatter_rad2 - wall_scatter_rad2_) * walls / walls_;
-    if (seen->share < params_.share_min || mean_share_ < params_.share_min) return std::nullopt;
-
-    const double variance_rad2 = params_.scans_a_view * (seen->noise_variance_rad2 + seen->walls_variance_rad2);
     const double in_map_rad = yaw_rad + seen->angle_rad;
-    if (measurements_ == 0.0) {
-      measurements_ = 1.0;
+    const bool is_first = measurements_ == 0.0;
+    const double turn_rad = is_first ? 0.0 : wrap_quarter_turn_rad(direction_rad_ - in_map_rad);
+    const bool is_along = std::abs(turn_rad) <= params_.inlier_max_rad;
+    scans_ += 1.0;
+    share_ += ((is_along ? seen->share : 0.0) - share_) / scans_;
+    if (!is_along || seen->share < params_.share_min || share_ < params_.share_min) return std::nullopt;
+
+    measurements_ += 1.0;
+    if (is_first) {
       direction_rad_ = in_map_rad;
       return std::nullopt;
     }
-    const double turn_rad = wrap_quarter_turn_rad(direction_rad_ - in_map_rad);
-    if (std::abs(turn_rad) > params_.inlier_max_rad) return std::nullopt;
-    const Heading heading{wrap_angle_rad(yaw_rad + turn_rad), variance_rad2 * (1.0 + 1.0 / measurements_)};
-    measurements_ += 1.0;
+    const double variance_rad2 = params_.scans_a_view * (seen->noise_variance_rad2 + seen->walls_variance_rad2);
+    const Heading heading{wrap_angle_rad(yaw_rad + turn_rad), variance_rad2 * measurements_ / (measurements_ - 1.0)};
     direction_rad_ -= turn_rad / measurements_;
     return heading;
   }
 
-  /// The share of straight walls that stand parallel or perpendicular to their scan's dominant direction, a mean over the
-  /// last scans; 0 before the first.
-  [[nodiscard]] double mean_share() const { return mean_share_; }
+  /// The share of straight walls that stand parallel or perpendicular to the building's dominant direction, a mean over all
+  /// scans; 0 before the first. Scans with another dominant direction count as 0.
+  [[nodiscard]] double share() const { return share_; }
 
   /// How far a wall of this building is off the right angle, squared: from what was seen, and from wall_sigma_rad as if it
   /// had been seen at wall_sigma_walls of them.
@@ -162,7 +161,7 @@ class Compass {
   CompassParams params_;
   std::vector<LineSegment> segments_;  // scratch
   double scans_ = 0.0;
-  double mean_share_ = 0.0;
+  double share_ = 0.0;
   double walls_ = 0.0;  // seen so far, each as often as it was seen
   double wall_scatter_rad2_ = 0.0;
   double measurements_ = 0.0;
