@@ -81,6 +81,70 @@ TEST_CASE("A contradicted place is left for one that is less than usual", "[esti
   CHECK_FALSE(better(relocation, current, true, {fit_at(1.0, 75, 25, 0.01)}));
 }
 
+namespace {
+
+/// The scans in a row with these shares of 100 beams that pass before another place is looked for; 0: none of a hundred.
+int scans_until_search(double period_s, std::size_t agreeing, bool is_contradicted, bool for_unusual_scans) {
+  Relocation relocation = used();
+  for (int scan = 0; scan < 20; ++scan) {
+    relocation.elapse(period_s);
+    relocation.judge({90, 10}, false, judged_min);
+    CHECK_FALSE(relocation.must_search(for_unusual_scans));
+  }
+  for (int scan = 1; scan <= 100; ++scan) {
+    relocation.elapse(period_s);
+    relocation.judge({agreeing, 100 - agreeing}, is_contradicted, judged_min);
+    if (relocation.must_search(for_unusual_scans)) return scan;
+  }
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("Another place is looked for when scans have been doubtful or unusual for a while", "[estimation]") {
+  CHECK(scans_until_search(0.1, 30, true, true) == 5);
+  CHECK(scans_until_search(0.1, 70, false, true) == 3);
+  CHECK(scans_until_search(0.1, 70, false, false) == 0);
+  CHECK(scans_until_search(0.1, 90, false, true) == 0);
+  CHECK(scans_until_search(0.025, 30, true, true) == 5);
+  // A slow scanner, or logs with seconds between scans, need not wait for as many.
+  CHECK(scans_until_search(0.2, 30, true, true) == 3);
+  CHECK(scans_until_search(3.0, 30, true, true) == 1);
+  CHECK(scans_until_search(3.0, 70, false, true) == 1);
+}
+
+TEST_CASE("Somebody who passes before the scanner starts no search", "[estimation]") {
+  Relocation relocation = used();
+  for (int scan = 0; scan < 200; ++scan) {
+    const bool is_blocked = scan % 5 < 2;
+    relocation.elapse(0.1);
+    relocation.judge(is_blocked ? ScanConsistency{60, 40} : ScanConsistency{90, 10}, is_blocked, judged_min);
+    REQUIRE_FALSE(relocation.must_search(true));
+  }
+}
+
+TEST_CASE("A search is narrow for a slip, wide for a robot carried off, and all around now and then", "[estimation]") {
+  Relocation relocation = used();
+  for (int scan = 0; scan < 20; ++scan) relocation.judge({70, 30}, false, judged_min);
+  REQUIRE(relocation.must_search(true));
+  const SearchWindow slipped = relocation.begin_search();
+  CHECK(slipped.x_m < Relocation::carried_m);
+  CHECK_FALSE(relocation.must_search(true));  // not at each scan: a search is dear
+  int all_around = 0;
+  for (int scan = 0; scan < 20; ++scan) {
+    relocation.judge({30, 70}, true, judged_min);
+    if (!relocation.must_search(true)) continue;
+    const SearchWindow carried = relocation.begin_search();
+    CHECK(carried.x_m == Relocation::carried_m);
+    if (carried.yaw_rad > 3.14) ++all_around;
+  }
+  CHECK(all_around == 4);
+  CHECK(relocation.doubtful_scans() == 20);
+  relocation.relocated();
+  CHECK(relocation.doubtful_scans() == 0);
+  CHECK_FALSE(relocation.must_search(true));
+}
+
 TEST_CASE("Parameters of a relocation out of bounds are refused by name", "[estimation]") {
   RelocationParams params;
   params.share_margin = -0.25;

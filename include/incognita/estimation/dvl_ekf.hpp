@@ -133,6 +133,7 @@ class BasicDvlEkf {
   void predict(const Pose2& increment, double duration_s) {
     require_motion("DvlEkf::predict", increment, duration_s);
     believe(propagate({belief_.pose, in_map_}, increment, params_.noise, duration_s));
+    relocation_.elapse(duration_s);
     if constexpr (closes_loops) loops_.add_motion(params_.noise.covariance(duration_s), belief_.pose.position());
     if (!is_ready()) driven_ = propagate(driven_, increment, params_.noise, duration_s);
   }
@@ -223,11 +224,12 @@ class BasicDvlEkf {
 
   /// What register_scan asks of the surfaces.
   template <class MapType>
-  struct SurfacesInMap {
+  struct SurfacesInMap : CertainSurfaces {
+    SurfacesInMap(const BasicDvlEkf& of_filter, const MapType& in_map) : filter(of_filter), map(in_map) {}
+
     const BasicDvlEkf& filter;
     const MapType& map;
 
-    [[nodiscard]] bool admits(const Surface<Dim>& /*surface*/) const { return true; }
     [[nodiscard]] double occupied_probability(const Surface<Dim>& surface) const {
       // The belief's hits lie a little behind the measured face, so look there too.
       const Eigen::Vector2d face_m = sum(surface.mean_m, shift_m(surface, surface.mean_m));
@@ -278,14 +280,14 @@ class BasicDvlEkf {
 
   template <class MapType>
   CorrectionReport correct_by_registration(const Scan<Dim>& scan, const MapType& map) {
-    const SurfacesInMap<MapType> surface_belief{*this, map};
+    const SurfacesInMap<MapType> surface_belief(*this, map);
     const PoseBelief predicted{belief_.pose, in_map_};
     const MapDrift::Reference reference = drift_.reference();
     if (params_.searches_each_scan) {
       const auto& candidates = search_.find(scan, surfaces_, predicted, params_.search_window);
       if (!candidates.empty()) believe({candidates.front().pose, in_map_});
     }
-    if (params_.uses_compass && doubtful_scans_ == 0) correct_by_compass(scan);
+    if (params_.uses_compass && relocation_.doubtful_scans() == 0) correct_by_compass(scan);
     choose_reference(scan, surface_belief);
     const auto fit_from = [&](const PoseBelief& start, const RegistrationParams& params, std::size_t beams_max) {
       ConsistencyParams consistency = params_.consistency;
@@ -294,59 +296,53 @@ class BasicDvlEkf {
       return ScanFit{found, scan_consistency(map, scan, found.belief.pose, consistency)};
     };
     ScanFit fit = fit_from({belief_.pose, in_map_}, params_.registration, params_.consistency.beams_max);
-    const std::size_t judged_min = params_.consistency.beams_min;
     CorrectionReport report;
     report.trusted = fit.consistency.holds(params_.consistency);
-    const bool is_unusual = relocation_.is_unusual(fit.consistency, judged_min);
-    doubtful_scans_ = report.trusted ? 0 : doubtful_scans_ + 1;
-    unusual_scans_ = report.trusted && !is_unusual ? 0 : unusual_scans_ + 1;
-    if (must_search()) {
-      ConsistencyParams all_beams = params_.consistency;
-      all_beams.beams_max = scan.size();
-      fit.consistency = scan_consistency(map, scan, fit.registration.belief.pose, all_beams);
-      const std::size_t all_judged_min = judged_min * std::max<std::size_t>(1, scan.size() / params_.consistency.beams_max);
-      if (!report.trusted || relocation_.is_unusual(fit.consistency, all_judged_min)) {
-        scans_since_search_ = 0;
-        RegistrationParams params = params_.registration;
-        params.iterations = relocation_iterations;
-        const auto found = relocation_.better(
-            search_.find(scan, surfaces_, predicted.pose, relocation_window()), fit, doubtful_scans_ > 0, all_judged_min,
-            [&](const SearchCandidate& candidate) {
-              return fit_from({candidate.pose, diagonal_covariance(0.01, 0.01, 0.0025)}, params, scan.size());
-            });
-        if (found) {
-          if constexpr (closes_loops) report_jump(predicted.pose, found->registration.belief);
-          heading_.reset();  // it was heard elsewhere
-          fit = *found;
-        }
-        report.relocated = found.has_value();
-        report.trusted = report.trusted || report.relocated;
-      }
+    relocation_.judge(fit.consistency, !report.trusted, params_.consistency.beams_min);
+    if (relocation_.must_search(!params_.searches_each_scan)) {
+      report.relocated = relocate(scan, map, predicted.pose, fit, fit_from);
+      report.trusted = report.trusted || report.relocated;
     }
-    ++scans_since_search_;
     report.consistent_share = fit.consistency.share();
     if (!report.trusted) {
       drift_.restore(reference);
       believe(predicted);
       heading_.reset();
-      report.lost = doubtful_scans_ >= params_.lost_scans;
+      report.lost = relocation_.doubtful_scans() >= params_.lost_scans;
       return report;
     }
-    doubtful_scans_ = 0;
-    if (report.relocated) unusual_scans_ = 0;
-    relocation_.add_usual(fit, judged_min);
+    relocation_.add_usual(fit, params_.consistency.beams_min);
     report.associations = fit.registration.associations;
     report.residual_rms_m = fit.registration.residual_rms_m;
     believe(fit.registration.belief);
     return report;
   }
 
-  /// Whether to look elsewhere, also when the map does not contradict the scan but fits it worse than usual. Not at once:
-  /// somebody who passes before the scanner is gone after a few scans, a robot that was carried off stays so.
-  [[nodiscard]] bool must_search() const {
-    if (doubtful_scans_ > 0) return doubtful_scans_ >= doubtful_patience_scans;
-    return !params_.searches_each_scan && unusual_scans_ >= unusual_patience_scans &&
-           scans_since_search_ >= unusual_search_every;
+  /// Looks for a place where the scan fits better, judging by all beams, and makes `fit` the fit there. Returns whether there
+  /// is one. fit_from(belief, registration params, beams_max) fits the scan from a belief.
+  template <class MapType, class FitFrom>
+  bool relocate(const Scan<Dim>& scan, const MapType& map, const Pose2& predicted, ScanFit& fit, const FitFrom& fit_from) {
+    ConsistencyParams all_beams = params_.consistency;
+    all_beams.beams_max = scan.size();
+    const std::size_t judged_min =
+        params_.consistency.beams_min * std::max<std::size_t>(1, scan.size() / params_.consistency.beams_max);
+    const bool is_contradicted = relocation_.doubtful_scans() > 0;
+    fit.consistency = scan_consistency(map, scan, fit.registration.belief.pose, all_beams);
+    if (!is_contradicted && !relocation_.is_unusual(fit.consistency, judged_min)) return false;
+    RegistrationParams params = params_.registration;
+    params.iterations = relocation_iterations;
+    const SearchWindow window = relocation_.begin_search();
+    const auto found = relocation_.better(
+        search_.find(scan, surfaces_, predicted, window), fit, is_contradicted, judged_min,
+        [&](const SearchCandidate& candidate) {
+          return fit_from({candidate.pose, diagonal_covariance(0.01, 0.01, 0.0025)}, params, scan.size());
+        });
+    if (!found) return false;
+    if constexpr (closes_loops) report_jump(predicted, found->registration.belief);
+    heading_.reset();  // it was heard elsewhere
+    relocation_.relocated();
+    fit = *found;
+    return true;
   }
 
   /// The robot was found elsewhere. If the map may have drifted so far, it has; else the robot slipped or was carried off,
@@ -360,16 +356,10 @@ class BasicDvlEkf {
     if (may_be_drift) {
       loops_.add_jump(from, to);
     } else {
-      loops_.add_motion(diagonal_covariance(carried_m * carried_m, carried_m * carried_m, std::numbers::pi), from.position());
+      constexpr double carried_m2 = Relocation::carried_m * Relocation::carried_m;
+      loops_.add_motion(diagonal_covariance(carried_m2, carried_m2, std::numbers::pi), from.position());
     }
     drift_.begin_piece();
-  }
-
-  /// Heading as predicted at first, all around now and then.
-  [[nodiscard]] SearchWindow relocation_window() const {
-    if (doubtful_scans_ == 0) return {slipped_m, slipped_m, relocation_rad};
-    const bool is_wide = doubtful_scans_ % wide_search_every == 0;
-    return {carried_m, carried_m, is_wide ? std::numbers::pi : relocation_rad};
   }
 
   template <class MapType>
@@ -404,13 +394,6 @@ class BasicDvlEkf {
   }
 
   static constexpr std::size_t reference_stride = 4;  ///< beams
-  static constexpr int unusual_patience_scans = 3;    ///< in a row, before a search
-  static constexpr int doubtful_patience_scans = 5;   ///< in a row, before a search
-  static constexpr int wide_search_every = 5;         ///< doubtful scans
-  static constexpr int unusual_search_every = 10;     ///< scans
-  static constexpr double carried_m = 3.5;  ///< how far a robot may have been carried off
-  static constexpr double slipped_m = 1.2;  ///< how far its wheels may have slipped
-  static constexpr double relocation_rad = 0.6;
   static constexpr int relocation_iterations = 8;
   static constexpr double jump_mahalanobis2_max = 11.3;  ///< what drift exceeds once in a hundred times, in three dimensions
   static constexpr double ray_search_m = 1.0;  ///< how far behind a reading its cell may lie
@@ -426,9 +409,6 @@ class BasicDvlEkf {
   Relocation relocation_;
   Loops loops_;
   std::optional<Compass::Heading> heading_;  ///< measured since the last scan that was learned
-  int doubtful_scans_ = 0;  ///< in a row
-  int unusual_scans_ = 0;   ///< in a row, the doubtful ones among them
-  int scans_since_search_ = 0;
   int scans_held_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -40,12 +41,63 @@ struct ScanFit {
   ScanConsistency consistency;
 };
 
-/// Learns how well scans usually fit, and judges by that whether a robot is better believed to be somewhere else. Fits with
-/// fewer judged beams than `judged_min` say nothing. Not thread safe.
+/// How long something has held without a break.
+struct Streak {
+  int scans = 0;
+  double duration_s = 0.0;  ///< since it last did not hold
+
+  void note(bool holds) {
+    scans = holds ? scans + 1 : 0;
+    if (!holds) duration_s = 0.0;
+  }
+};
+
+/// Learns how well scans usually fit, and judges by that whether and where to look for the robot elsewhere, and whether it is
+/// better believed to be there. Fits with fewer judged beams than `judged_min` say nothing. Not thread safe.
 class Relocation {
  public:
+  /// How far a robot may have been carried off.
+  static constexpr double carried_m = 3.5;
+
   /// Throws std::invalid_argument for parameters outside of their bounds.
   explicit Relocation(const RelocationParams& params = {}) : params_(params) { params_.validate(); }
+
+  /// Time passes until the next scan.
+  void elapse(double duration_s) {
+    doubtful_.duration_s += duration_s;
+    unusual_.duration_s += duration_s;
+  }
+
+  /// Notes whether the map contradicts a scan.
+  void judge(const ScanConsistency& seen, bool is_contradicted, std::size_t judged_min) {
+    doubtful_.note(is_contradicted);
+    unusual_.note(is_contradicted || is_unusual(seen, judged_min));
+    ++scans_since_search_;
+  }
+
+  /// The scans in a row that the map contradicts.
+  [[nodiscard]] int doubtful_scans() const { return doubtful_.scans; }
+
+  /// Whether to look elsewhere, for unusual scans also when the map does not contradict them. Not at once: somebody who
+  /// passes before the scanner is gone after a few scans or a moment, a robot that was carried off stays so.
+  [[nodiscard]] bool must_search(bool for_unusual_scans) const {
+    if (doubtful_.scans > 0) return doubtful_.scans >= doubtful_patience_scans || doubtful_.duration_s >= doubtful_patience_s;
+    return for_unusual_scans && scans_since_search_ >= unusual_search_every &&
+           (unusual_.scans >= unusual_patience_scans || (unusual_.scans > 0 && unusual_.duration_s >= unusual_patience_s));
+  }
+
+  /// Where to look around the predicted pose: with its heading at first, all around now and then.
+  [[nodiscard]] SearchWindow begin_search() {
+    scans_since_search_ = 0;
+    if (doubtful_.scans == 0) return {slipped_m, slipped_m, turned_rad};
+    return {carried_m, carried_m, doubtful_.scans % wide_search_every == 0 ? std::numbers::pi : turned_rad};
+  }
+
+  /// The robot was found elsewhere.
+  void relocated() {
+    doubtful_.note(false);
+    unusual_.note(false);
+  }
 
   /// Learns from the fit of a scan that was trusted.
   void add_usual(const ScanFit& fit, std::size_t judged_min) {
@@ -92,9 +144,21 @@ class Relocation {
     return distance(one.registration.belief.pose.position(), other_m) > params_.separation_m;
   }
 
+  static constexpr int unusual_patience_scans = 3;  ///< in a row ...
+  static constexpr double unusual_patience_s = 0.25;
+  static constexpr int doubtful_patience_scans = 5;
+  static constexpr double doubtful_patience_s = 0.45;  ///< ... of a scanner at 10 Hz; slower ones need not wait longer
+  static constexpr int unusual_search_every = 10;      ///< scans
+  static constexpr int wide_search_every = 5;          ///< doubtful scans
+  static constexpr double slipped_m = 1.2;             ///< how far wheels may have slipped ...
+  static constexpr double turned_rad = 0.6;            ///< ... or the robot may have turned by them
+
   RelocationParams params_;
   double usual_share_ = 0.8;
   double usual_residual_m_ = 0.02;
+  Streak doubtful_;
+  Streak unusual_;  ///< the doubtful ones among them
+  int scans_since_search_ = 0;
 };
 
 }  // namespace incognita
