@@ -63,6 +63,9 @@ struct SurfaceMatch {
   const Surface<2>* surface = nullptr;
   bool is_line = false;
   Eigen::Vector2d offset_m{0.0, 0.0};  ///< from the surface's mean to the end point
+
+  /// Signed for lines.
+  [[nodiscard]] double residual_m() const { return is_line ? dot(surface->normal, offset_m) : norm(offset_m); }
 };
 
 /// What is believed of surfaces beyond what was measured of them: here, that they are walls where they were measured.
@@ -126,6 +129,27 @@ template <class SurfaceBelief = CertainSurfaces>
   return {axis[0], axis[1], axis[1] * rotated_m[0] - axis[0] * rotated_m[1]};
 }
 
+/// Cauchy's weight of a residual.
+[[nodiscard]] inline double robust_weight(double residual_m, const RegistrationParams& params) {
+  const double scaled_residual = residual_m / params.residual_scale_m;
+  return 1.0 / (1.0 + scaled_residual * scaled_residual);
+}
+
+/// Adds what a match says of the motion that end_point_jacobian is the derivative by; weight(axis) is that of its residual
+/// along an axis.
+template <class Weight>
+inline void add_match(Information& information, const SurfaceMatch& match, const Eigen::Vector2d& rotated_m,
+                      double point_weight, const Weight& weight) {
+  if (match.is_line) {
+    const Eigen::Vector2d& normal = match.surface->normal;
+    information.add(end_point_jacobian(normal, rotated_m), -match.residual_m(), weight(normal));
+    return;
+  }
+  for (const Eigen::Vector2d& axis : {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(0.0, 1.0)}) {
+    information.add(end_point_jacobian(axis, rotated_m), -dot(axis, match.offset_m), point_weight * weight(axis));
+  }
+}
+
 /// The Gauss-Newton step counted from the prior, which needs no inverse of the prior's covariance. A template, so that its
 /// Eigen expression costs only those who register.
 template <class Matrix, class Vector>
@@ -162,25 +186,15 @@ template <class SurfaceBelief = CertainSurfaces>
       if (match.surface == nullptr) continue;
       const double probability = belief.occupied_probability(*match.surface);
       if (probability < 0.0) continue;
-      const Eigen::Vector2d& offset_m = match.offset_m;
       const double variance_m2 = measurement_variance_m2(params.dvl, probability, params.mixture);
-      const double residual_m = match.is_line ? dot(match.surface->normal, offset_m) : norm(offset_m);
-      const double scaled_residual = residual_m / params.residual_scale_m;
-      const double robust = 1.0 / (1.0 + scaled_residual * scaled_residual);
-      const auto weight = [&](const Eigen::Vector2d& axis) {
-        const double excess_m2 = belief.excess_variance_m2(*match.surface, end_point_jacobian(axis, end_point_m));
-        return robust / (variance_m2 + params.gamma * excess_m2);
-      };
+      const double residual_m = match.residual_m();
+      const double robust = robust_weight(residual_m, params);
       ++associations;
       squares_m2 += residual_m * residual_m;
-      if (match.is_line) {
-        information.add(end_point_jacobian(match.surface->normal, rotated_m), -residual_m, weight(match.surface->normal));
-      } else {
-        const Eigen::Vector2d x_axis(1.0, 0.0);
-        const Eigen::Vector2d y_axis(0.0, 1.0);
-        information.add(end_point_jacobian(x_axis, rotated_m), -offset_m[0], params.point_weight * weight(x_axis));
-        information.add(end_point_jacobian(y_axis, rotated_m), -offset_m[1], params.point_weight * weight(y_axis));
-      }
+      add_match(information, match, rotated_m, params.point_weight, [&](const Eigen::Vector2d& axis) {
+        const double excess_m2 = belief.excess_variance_m2(*match.surface, end_point_jacobian(axis, end_point_m));
+        return robust / (variance_m2 + params.gamma * excess_m2);
+      });
     }
     result.hits = hits;
     if (associations == 0) return {prior, hits, 0, 0.0};

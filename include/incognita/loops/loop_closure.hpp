@@ -131,17 +131,16 @@ class LoopClosure {
   [[nodiscard]] const DriftGraph& graph() const { return graph_; }
 
  private:
-  /// Surfaces of the pieces in [first, last), where they are now known to be.
-  struct SurfacesOfAge {
+  /// Surfaces of the pieces in [first, end), where they are now known to be.
+  struct SurfacesOfAge : CertainSurfaces {
+    SurfacesOfAge(const MapDrift& map_drift, int first_piece, int end_piece)
+        : drift(map_drift), first(first_piece), end(end_piece) {}
+
     const MapDrift& drift;
     int first;
-    int last;
+    int end;
 
-    [[nodiscard]] bool admits(const Surface<2>& surface) const { return surface.piece >= first && surface.piece < last; }
-    [[nodiscard]] double occupied_probability(const Surface<2>& /*surface*/) const { return 1.0; }
-    [[nodiscard]] double excess_variance_m2(const Surface<2>& /*surface*/, const Eigen::Vector3d& /*jacobian*/) const {
-      return 0.0;
-    }
+    [[nodiscard]] bool admits(const Surface<2>& surface) const { return surface.piece >= first && surface.piece < end; }
     [[nodiscard]] Eigen::Vector2d shift_m(const Surface<2>& surface, const Eigen::Vector2d& at_m) const {
       return drift.shift_m(surface.piece, at_m);
     }
@@ -250,17 +249,10 @@ class LoopClosure {
       const int of = match.surface->piece;
       auto found = std::find_if(met.begin(), met.end(), [of](const Met& m) { return m.piece == of; });
       if (found == met.end()) found = met.insert(met.end(), Met{of, {}});
-      const double residual_m = match.is_line ? dot(match.surface->normal, match.offset_m) : norm(match.offset_m);
-      const double scaled_residual = residual_m / registration.residual_scale_m;
-      const double weight = 1.0 / ((1.0 + scaled_residual * scaled_residual) * registration.dvl.occupied_m2);
+      const double weight = robust_weight(match.residual_m(), registration) / registration.dvl.occupied_m2;
       // Twists move the end point about the map's origin.
-      if (match.is_line) {
-        found->information.add(end_point_jacobian(match.surface->normal, end_point_m), -residual_m, weight);
-      } else {
-        const double point_weight = registration.point_weight * weight;
-        found->information.add(end_point_jacobian({1.0, 0.0}, end_point_m), -match.offset_m[0], point_weight);
-        found->information.add(end_point_jacobian({0.0, 1.0}, end_point_m), -match.offset_m[1], point_weight);
-      }
+      add_match(found->information, match, end_point_m, registration.point_weight,
+                [&](const Eigen::Vector2d&) { return weight; });
     });
     const Eigen::Vector3d off = twist_between(keyframe.pose, pose);
     for (const Met& of : met) {
