@@ -51,6 +51,7 @@ void run(const Options& options) {
   map_params.resolution_m = options.resolution_m;
   LoopClosingDvlEkf::Params filter_params = log_filter_params();
   filter_params.start.pose = Pose2{0.0, 0.0, wrap_angle_rad(options.frame_angle_rad)} * log.T_robot_laser;
+  filter_params.uses_compass = options.compass == "on";
   filter_params.loops.closes_loops = options.loops == "on";
   LogSlam slam{LoopClosingDvlEkf(filter_params), Map<>(map_params)};
   const MappingRecord record = map_log(log, options.log_file, slam);

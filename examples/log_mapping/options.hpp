@@ -23,6 +23,7 @@ struct Options {
   std::string relations_file;  ///< empty: none
   double frame_angle_rad = 0.0;
   double resolution_m = 0.1;
+  std::string compass = "on";
   std::string loops = "on";
   incognita::RobotLogParams log;
   std::string output = "output/log_mapping";
@@ -57,6 +58,9 @@ struct Options {
       ->capture_default_str();
   app.add_option("--resolution", options.resolution_m, "side of a cell of the belief, in metres, 0.02 to 1")
       ->type_name("M")
+      ->capture_default_str();
+  app.add_option("--compass", options.compass, "whether headings are taken from walls that stand at right angles")
+      ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   app.add_option("--loops", options.loops, "whether the map is put right when the robot returns to where it was")
       ->check(CLI::IsMember({"on", "off"}))

@@ -49,6 +49,7 @@ namespace log_mapping {
   json["lost_scans"] = record.lost_scans;
   json["wall_time_s"] = record.wall_time_s;
   json["real_time_factor"] = log.duration_s() / record.wall_time_s;
+  json["compass"] = options.compass;
   json["loops"] = options.loops;
   json["resolution_m"] = options.resolution_m;
   json["frame_angle_deg"] = options.frame_angle_rad / rad_per_deg;
