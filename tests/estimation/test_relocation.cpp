@@ -25,9 +25,13 @@ std::optional<ScanFit> better(const Relocation& relocation, const ScanFit& curre
                               const std::vector<ScanFit>& fits) {
   std::vector<SearchCandidate> candidates(fits.size());
   for (std::size_t i = 0; i < fits.size(); ++i) candidates[i].pose.x_m = static_cast<double>(i);
-  return relocation.better(candidates, current, is_contradicted, judged_min, [&](const SearchCandidate& candidate) {
-    return fits[static_cast<std::size_t>(candidate.pose.x_m)];
-  });
+  ScanFit fit = current;
+  const bool is_found =
+      relocation.improve(fit, candidates, is_contradicted, judged_min, [&](const SearchCandidate& candidate) {
+        return fits[static_cast<std::size_t>(candidate.pose.x_m)];
+      });
+  if (!is_found) CHECK(fit.registration.belief.pose.x_m == current.registration.belief.pose.x_m);
+  return is_found ? std::optional<ScanFit>(fit) : std::nullopt;
 }
 
 /// Has seen many scans of which 90 % of the judged beams agreed, with residuals of 0.01 m.

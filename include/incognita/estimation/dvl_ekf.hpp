@@ -3,14 +3,12 @@
 
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include "incognita/estimation/compass.hpp"
 #include "incognita/estimation/correlative_search.hpp"
@@ -332,34 +330,19 @@ class BasicDvlEkf {
     RegistrationParams params = params_.registration;
     params.iterations = relocation_iterations;
     const SearchWindow window = relocation_.begin_search();
-    const auto found = relocation_.better(
-        search_.find(scan, surfaces_, predicted, window), fit, is_contradicted, judged_min,
+    const bool is_found = relocation_.improve(
+        fit, search_.find(scan, surfaces_, predicted, window), is_contradicted, judged_min,
         [&](const SearchCandidate& candidate) {
           return fit_from({candidate.pose, diagonal_covariance(0.01, 0.01, 0.0025)}, params, scan.size());
         });
-    if (!found) return false;
-    if constexpr (closes_loops) report_jump(predicted, found->registration.belief);
+    if (!is_found) return false;
+    if constexpr (closes_loops) {
+      loops_.add_jump({predicted, belief_.covariance}, fit.registration.belief);
+      drift_.begin_piece();
+    }
     heading_.reset();  // it was heard elsewhere
     relocation_.relocated();
-    fit = *found;
     return true;
-  }
-
-  /// The robot was found elsewhere. If the map may have drifted so far, it has; else the robot slipped or was carried off,
-  /// which says nothing of the map.
-  void report_jump(const Pose2& from, const PoseBelief& to) {
-    Eigen::Matrix3d covariance = to.covariance;
-    add_to(covariance, belief_.covariance);
-    const Eigen::Vector3d off(to.pose.x_m - from.x_m, to.pose.y_m - from.y_m,
-                              angle_between_rad(from.yaw_rad, to.pose.yaw_rad));
-    const bool may_be_drift = off.dot(covariance.inverse() * off) < jump_mahalanobis2_max;
-    if (may_be_drift) {
-      loops_.add_jump(from, to);
-    } else {
-      constexpr double carried_m2 = Relocation::carried_m * Relocation::carried_m;
-      loops_.add_motion(diagonal_covariance(carried_m2, carried_m2, std::numbers::pi), from.position());
-    }
-    drift_.begin_piece();
   }
 
   template <class MapType>
@@ -395,7 +378,6 @@ class BasicDvlEkf {
 
   static constexpr std::size_t reference_stride = 4;  ///< beams
   static constexpr int relocation_iterations = 8;
-  static constexpr double jump_mahalanobis2_max = 11.3;  ///< what drift exceeds once in a hundred times, in three dimensions
   static constexpr double ray_search_m = 1.0;  ///< how far behind a reading its cell may lie
 
   Params params_;

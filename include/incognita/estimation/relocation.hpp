@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "incognita/core/error.hpp"
@@ -112,30 +111,32 @@ class Relocation {
     return seen.judged() >= judged_min && seen.share() < usual_share_ - params_.share_margin;
   }
 
-  /// The best of the candidates' fits, if it is better than `current`: more of the beams agree, by a margin and by what is
-  /// usual (when the map contradicts the current place: by share_min), and residuals are as small. None when there is
-  /// none, or when one elsewhere is as good. fit_at(candidate) gives a candidate's fit.
+  /// Makes `fit` the best of the candidates' fits, if that is better: more of the beams agree, by a margin and by what is
+  /// usual (when the map contradicts the current place: by share_min), and residuals are as small. Returns false and leaves
+  /// it when there is none, or when one elsewhere is as good. fit_at(candidate) gives a candidate's fit.
   template <class FitAt>
-  [[nodiscard]] std::optional<ScanFit> better(const std::vector<SearchCandidate>& candidates, const ScanFit& current,
-                                              bool is_contradicted, std::size_t judged_min, FitAt&& fit_at) const {
+  bool improve(ScanFit& fit, const std::vector<SearchCandidate>& candidates, bool is_contradicted, std::size_t judged_min,
+               FitAt&& fit_at) const {
     const double share_min =
-        std::max(is_contradicted ? params_.share_min : usual_share_, current.consistency.share() + params_.share_margin);
+        std::max(is_contradicted ? params_.share_min : usual_share_, fit.consistency.share() + params_.share_margin);
     const double residual_max_m =
-        std::max(current.registration.residual_rms_m, params_.residual_ratio_max * usual_residual_m_);
-    std::vector<ScanFit> fits;
+        std::max(fit.registration.residual_rms_m, params_.residual_ratio_max * usual_residual_m_);
+    std::vector<decltype(fit_at(candidates.front()))> fits;
     std::size_t best = 0;
     for (const SearchCandidate& candidate : candidates) {
-      const ScanFit fit = fit_at(candidate);
-      if (fit.registration.associations == 0 || fit.registration.residual_rms_m > residual_max_m) continue;
-      if (fit.consistency.agreeing < judged_min || fit.consistency.share() < share_min) continue;
-      fits.push_back(fit);
-      if (fit.consistency.share() > fits[best].consistency.share()) best = fits.size() - 1;
+      const auto found = fit_at(candidate);
+      if (found.registration.associations == 0 || found.registration.residual_rms_m > residual_max_m) continue;
+      if (found.consistency.agreeing < judged_min || found.consistency.share() < share_min) continue;
+      fits.push_back(found);
+      if (found.consistency.share() > fits[best].consistency.share()) best = fits.size() - 1;
     }
-    for (const ScanFit& fit : fits) {
-      const bool is_as_good = fit.consistency.share() > fits[best].consistency.share() - params_.share_margin;
-      if (is_as_good && is_elsewhere(fit, fits[best])) return std::nullopt;
+    for (const auto& found : fits) {
+      const bool is_as_good = found.consistency.share() > fits[best].consistency.share() - params_.share_margin;
+      if (is_as_good && is_elsewhere(found, fits[best])) return false;
     }
-    return fits.empty() ? std::nullopt : std::optional<ScanFit>(fits[best]);
+    if (fits.empty()) return false;
+    fit = fits[best];
+    return true;
   }
 
  private:

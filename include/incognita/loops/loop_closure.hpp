@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "incognita/estimation/information.hpp"
 #include "incognita/estimation/map_drift.hpp"
 #include "incognita/estimation/registration.hpp"
+#include "incognita/estimation/relocation.hpp"
 #include "incognita/estimation/surface_map.hpp"
 #include "incognita/loops/drift_graph.hpp"
 #include "incognita/loops/kept_scans.hpp"
@@ -76,10 +78,19 @@ class LoopClosure {
     step_covariance_ += carried_covariance(covariance, -position_m);
   }
 
-  /// The robot was found elsewhere because the map around had drifted: what came before should be where it now is.
-  void add_jump(const Pose2& from, const PoseBelief& to) {
+  /// The robot was found elsewhere. If the map may have drifted so far, it has, and what came before should be where the
+  /// robot now is; else its wheels slipped or it was carried off, which says nothing of the map.
+  void add_jump(const PoseBelief& from, const PoseBelief& to) {
+    const Eigen::Vector3d off(to.pose.x_m - from.pose.x_m, to.pose.y_m - from.pose.y_m,
+                              angle_between_rad(from.pose.yaw_rad, to.pose.yaw_rad));
+    const Eigen::Matrix3d covariance = from.covariance + to.covariance;
+    if (off.dot(covariance.inverse() * off) >= jump_mahalanobis2_max) {
+      constexpr double carried_m2 = Relocation::carried_m * Relocation::carried_m;
+      add_motion(diagonal_covariance(carried_m2, carried_m2, std::numbers::pi), from.pose.position());
+      return;
+    }
     add_motion(to.covariance, to.pose.position());
-    step_jump_ += twist_between(from, to.pose);
+    step_jump_ += twist_between(from.pose, to.pose);
     is_solution_due_ = true;
   }
 
@@ -268,6 +279,7 @@ class LoopClosure {
   }
 
   static constexpr int age_iterations = 4;
+  static constexpr double jump_mahalanobis2_max = 11.3;  ///< what drift exceeds once in a hundred times, in three dimensions
 
   Params params_;
   DriftGraph graph_;
