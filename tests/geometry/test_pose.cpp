@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "incognita/core/random.hpp"
-#include "incognita/geometry/pose.hpp"
+#include "incognita/geometry/pose3.hpp"
 
 using namespace incognita;
 

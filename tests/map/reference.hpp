@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "incognita/core/random.hpp"
-#include "incognita/geometry/pose.hpp"
+#include "incognita/geometry/pose3.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/map/cells/t_bayes.hpp"
 #include "incognita/sensor/scan.hpp"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include "incognita/core/error.hpp"
+#include "incognita/geometry/principal_axes.hpp"
 #include "incognita/grid/grid.hpp"
 
 namespace incognita {
@@ -241,9 +241,8 @@ class SurfaceMap {
   [[nodiscard]] static Fit fit(const Pool& pool) {
     const Point<Dim> mean = pool.sum / pool.count;
     const typename Surface<Dim>::Matrix covariance = pool.moment / pool.count - mean * mean.transpose();
-    Eigen::SelfAdjointEigenSolver<typename Surface<Dim>::Matrix> solver;
-    solver.computeDirect(covariance);
-    return {mean, solver.eigenvectors().col(0), std::max(0.0, solver.eigenvalues()[0]), solver.eigenvalues()[1]};
+    const PrincipalAxes<Dim> principal = principal_axes<Dim>(covariance);
+    return {mean, principal.axes.col(0), std::max(0.0, principal.values[0]), principal.values[1]};
   }
 
   void refresh_normal(const Index<Dim>& index, Surface<Dim>& surface) {

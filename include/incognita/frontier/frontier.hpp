@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "incognita/frontier/detection.hpp"
+#include "incognita/geometry/principal_axes.hpp"
 #include "incognita/grid/components.hpp"
 #include "incognita/grid/lattice.hpp"
 
@@ -53,8 +53,7 @@ template <int Dim>
     const Point<Dim> offset = cell.template cast<double>() - mean;
     scatter += offset * offset.transpose();
   }
-  Point<Dim> axis =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>(scatter).eigenvectors().col(Dim - 1);
+  Point<Dim> axis = principal_axes<Dim>(scatter).axes.col(Dim - 1);
   Eigen::Index strongest = 0;
   axis.cwiseAbs().maxCoeff(&strongest);
   if (axis[strongest] < 0.0) axis = -axis;  // an eigenvector's sign is free

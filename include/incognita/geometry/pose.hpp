@@ -3,18 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include <Eigen/Core>
 
 #include "incognita/geometry/pose2.hpp"
-#include "incognita/geometry/pose3.hpp"
 
 namespace incognita {
 
-/// Pose2 for 2, Pose3 for 3.
+/// The pose of a dimension.
 template <int Dim>
-using Pose = std::conditional_t<Dim == 2, Pose2, Pose3>;
+struct PoseOf;
+
+template <>
+struct PoseOf<2> {
+  using Type = Pose2;
+};
+
+/// Pose2 for 2; Pose3 for 3, where geometry/pose3.hpp is included, which costs as much time to compile as all of Eigen.
+template <int Dim>
+using Pose = typename PoseOf<Dim>::Type;
 
 /// True when `matrix` is finite, symmetric and has no eigenvalue below 0, each within `tolerance` of its largest entry:
 /// raised by that much on its diagonal, it must have a Cholesky factor.

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "incognita/geometry/pose.hpp"
+
 namespace incognita {
 
 /// A position in metres and an orientation. As T_a_b it takes coordinates in frame b to coordinates in frame a.
@@ -39,5 +41,10 @@ struct BasicPose3 {
 };
 
 using Pose3 = BasicPose3<double>;
+
+template <>
+struct PoseOf<3> {
+  using Type = Pose3;
+};
 
 }  // namespace incognita
