@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Each room's door includes every header of the room, and incognita.hpp every door but those of io,
-# loops and testing.
+# Each room's door includes every header of the room but poses in space, and incognita.hpp every door but those of io, loops
+# and testing.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../include"
 failures=0
@@ -11,6 +11,7 @@ missing() {
 for folder in incognita/*/; do
   door=${folder%/}.hpp
   while read -r header; do
+    [[ $header == incognita/geometry/pose3.hpp ]] && continue
     grep -qF "#include \"$header\"" "$door" || missing "$door" "$header"
   done < <(find "$folder" -name '*.hpp')
   case $door in incognita/io.hpp | incognita/loops.hpp | incognita/testing.hpp) continue ;; esac
