@@ -111,8 +111,10 @@ TEST_CASE("Another place is looked for when scans have been doubtful or unusual 
   CHECK(scans_until_search(0.1, 70, false, false) == 0);
   CHECK(scans_until_search(0.1, 90, false, true) == 0);
   CHECK(scans_until_search(0.025, 30, true, true) == 5);
+  CHECK(scans_until_search(0.025, 70, false, true) == 3);
   // A slow scanner, or logs with seconds between scans, need not wait for as many.
   CHECK(scans_until_search(0.2, 30, true, true) == 3);
+  CHECK(scans_until_search(0.2, 70, false, true) == 2);
   CHECK(scans_until_search(3.0, 30, true, true) == 1);
   CHECK(scans_until_search(3.0, 70, false, true) == 1);
 }
@@ -134,17 +136,17 @@ TEST_CASE("A search is narrow for a slip, wide for a robot carried off, and all 
   const SearchWindow slipped = relocation.begin_search();
   CHECK(slipped.x_m < Relocation::carried_m);
   CHECK_FALSE(relocation.must_search(true));  // not at each scan: a search is dear
-  int all_around = 0;
-  for (int scan = 0; scan < 20; ++scan) {
+  for (int scan = 1; scan <= 20; ++scan) {
     relocation.judge({30, 70}, true, judged_min);
-    if (!relocation.must_search(true)) continue;
+    CAPTURE(scan);
+    REQUIRE(relocation.must_search(true) == (scan >= 5));
+    if (scan < 5) continue;
     const SearchWindow carried = relocation.begin_search();
     CHECK(carried.x_m == Relocation::carried_m);
-    if (carried.yaw_rad > 3.14) ++all_around;
+    CHECK((carried.yaw_rad > 3.14) == (scan % 5 == 0));
   }
-  CHECK(all_around == 4);
   CHECK(relocation.doubtful_scans() == 20);
-  relocation.relocated();
+  relocation.reset();
   CHECK(relocation.doubtful_scans() == 0);
   CHECK_FALSE(relocation.must_search(true));
 }

@@ -53,6 +53,7 @@ cd ../run
 refused "no log" --log
 refused "a log without a name" --log --log ""
 refused "loops of another kind" --loops --log ../inputs/room.dat --loops maybe
+refused "a compass of another kind" --compass --log ../inputs/room.dat --compass maybe
 refused "a log that is not there" absent.json --log ../inputs/absent.json
 refused "a folder" "is a folder" --log ../inputs/folder.json
 refused "an unknown extension" room.dat --log ../inputs/room.dat
@@ -117,7 +118,7 @@ done
 [ "$(ls -A full | wc -l)" -eq 7 ] || fail "other files than promised: $(ls -A full)"
 for key in log reference relations scans beams duration_s distance_m relations_matched relations_translation_mean_m \
   relations_rotation_mean_deg odometry_relations_translation_mean_m odometry_relations_rotation_mean_deg ate_rmse_m \
-  lost_scans wall_time_s real_time_factor loops resolution_m frame_angle_deg no_return_m usable_range_m; do
+  lost_scans wall_time_s real_time_factor compass loops resolution_m frame_angle_deg no_return_m usable_range_m; do
   [ -n "$(value json $key)" ] || fail "metrics.json lacks $key"
 done
 for key in reference relations relations_matched relations_translation_mean_m relations_rotation_mean_deg ate_rmse_m; do

@@ -100,8 +100,9 @@ struct CompassParams {
   return found;
 }
 
-/// Keeps the direction of a building's walls in the map's frame and measures headings by it. The direction is learned as the
-/// mean over all scans, because the first ones are few and may have seen walls that are not like the others. Silent for
+/// Keeps the direction of a building's walls in the map's frame and measures headings by it. The first scan that has a
+/// direction gives it, and the mean over all that agree within inlier_max_rad, because the first may have seen walls that are
+/// a little off. A robot that starts in the lesser of two wings gets no headings in the greater. Silent for
 /// scans without a dominant direction, and while the building has none: two wings at an angle have one each, and it has
 /// none. Not thread safe.
 class Compass {
@@ -146,7 +147,8 @@ class Compass {
   }
 
   /// The share of straight walls that stand parallel or perpendicular to the building's dominant direction, a mean over all
-  /// scans; 0 before the first. Scans with another dominant direction count as 0.
+  /// scans with enough of them; 0 before the first. Scans with another dominant direction count as 0; before the building has
+  /// one, scans count with their own.
   [[nodiscard]] double share() const { return share_; }
 
   /// How far a wall of this building is off the right angle, squared: from what was seen, and from wall_sigma_rad as if it

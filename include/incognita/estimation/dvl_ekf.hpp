@@ -1,6 +1,7 @@
 /// The extended Kalman filter that weighs each hit by the map's confidence (Seo et al., section IV-B).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -131,9 +132,12 @@ class BasicDvlEkf {
   void predict(const Pose2& increment, double duration_s) {
     require_motion("DvlEkf::predict", increment, duration_s);
     believe(propagate({belief_.pose, in_map_}, increment, params_.noise, duration_s));
-    relocation_.elapse(duration_s);
     if constexpr (closes_loops) loops_.add_motion(params_.noise.covariance(duration_s), belief_.pose.position());
-    if (!is_ready()) driven_ = propagate(driven_, increment, params_.noise, duration_s);
+    if (is_ready()) {
+      relocation_.elapse(duration_s);
+    } else {
+      driven_ = propagate(driven_, increment, params_.noise, duration_s);
+    }
   }
 
   /// Corrects the belief by a scan; `map` must not have taken the scan yet.
@@ -337,11 +341,10 @@ class BasicDvlEkf {
         });
     if (!is_found) return false;
     if constexpr (closes_loops) {
-      loops_.add_jump({predicted, belief_.covariance}, fit.registration.belief);
-      drift_.begin_piece();
+      if (loops_.add_jump({predicted, belief_.covariance}, fit.registration.belief)) drift_.begin_piece();
     }
     heading_.reset();  // it was heard elsewhere
-    relocation_.relocated();
+    relocation_.reset();
     return true;
   }
 

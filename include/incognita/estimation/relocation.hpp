@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numbers>
+#include <type_traits>
 #include <vector>
 
 #include "incognita/core/error.hpp"
@@ -43,7 +44,7 @@ struct ScanFit {
 /// How long something has held without a break.
 struct Streak {
   int scans = 0;
-  double duration_s = 0.0;  ///< since it last did not hold
+  double duration_s = 0.0;  ///< since the last scan of which it did not hold: one period of the scanner at least
 
   void note(bool holds) {
     scans = holds ? scans + 1 : 0;
@@ -85,15 +86,16 @@ class Relocation {
            (unusual_.scans >= unusual_patience_scans || (unusual_.scans > 0 && unusual_.duration_s >= unusual_patience_s));
   }
 
-  /// Where to look around the predicted pose: with its heading at first, all around now and then.
+  /// Where to look around the predicted pose: near its heading, and all around at every fifth doubtful scan, which for a fast
+  /// scanner is the first search.
   [[nodiscard]] SearchWindow begin_search() {
     scans_since_search_ = 0;
     if (doubtful_.scans == 0) return {slipped_m, slipped_m, turned_rad};
     return {carried_m, carried_m, doubtful_.scans % wide_search_every == 0 ? std::numbers::pi : turned_rad};
   }
 
-  /// The robot was found elsewhere.
-  void relocated() {
+  /// Scans from here on are taken somewhere else.
+  void reset() {
     doubtful_.note(false);
     unusual_.note(false);
   }
@@ -115,13 +117,13 @@ class Relocation {
   /// usual (when the map contradicts the current place: by share_min), and residuals are as small. Returns false and leaves
   /// it when there is none, or when one elsewhere is as good. fit_at(candidate) gives a candidate's fit.
   template <class FitAt>
-  bool improve(ScanFit& fit, const std::vector<SearchCandidate>& candidates, bool is_contradicted, std::size_t judged_min,
+  [[nodiscard]] bool improve(ScanFit& fit, const std::vector<SearchCandidate>& candidates, bool is_contradicted, std::size_t judged_min,
                FitAt&& fit_at) const {
     const double share_min =
         std::max(is_contradicted ? params_.share_min : usual_share_, fit.consistency.share() + params_.share_margin);
     const double residual_max_m =
         std::max(fit.registration.residual_rms_m, params_.residual_ratio_max * usual_residual_m_);
-    std::vector<decltype(fit_at(candidates.front()))> fits;
+    std::vector<std::decay_t<decltype(fit_at(candidates.front()))>> fits;  // ScanFits, which only users pay for
     std::size_t best = 0;
     for (const SearchCandidate& candidate : candidates) {
       const auto found = fit_at(candidate);
@@ -148,7 +150,7 @@ class Relocation {
   static constexpr int unusual_patience_scans = 3;  ///< in a row ...
   static constexpr double unusual_patience_s = 0.25;
   static constexpr int doubtful_patience_scans = 5;
-  static constexpr double doubtful_patience_s = 0.45;  ///< ... of a scanner at 10 Hz; slower ones need not wait longer
+  static constexpr double doubtful_patience_s = 0.45;  ///< ... of a scanner at 10 Hz; below 2 Hz one scan is enough
   static constexpr int unusual_search_every = 10;      ///< scans
   static constexpr int wide_search_every = 5;          ///< doubtful scans
   static constexpr double slipped_m = 1.2;             ///< how far wheels may have slipped ...
@@ -158,7 +160,7 @@ class Relocation {
   double usual_share_ = 0.8;
   double usual_residual_m_ = 0.02;
   Streak doubtful_;
-  Streak unusual_;  ///< the doubtful ones among them
+  Streak unusual_;  ///< doubtful scans count too
   int scans_since_search_ = 0;
 };
 

@@ -10,7 +10,7 @@
 
 namespace incognita {
 
-/// The pose of a dimension.
+/// The pose of a dimension; for 3 include geometry/pose3.hpp.
 template <int Dim>
 struct PoseOf;
 
@@ -19,7 +19,7 @@ struct PoseOf<2> {
   using Type = Pose2;
 };
 
-/// Pose2 for 2; Pose3 for 3, where geometry/pose3.hpp is included, which costs as much time to compile as all of Eigen.
+/// Pose2 for 2; Pose3 for 3, where geometry/pose3.hpp is included, which parses a good part of Eigen.
 template <int Dim>
 using Pose = typename PoseOf<Dim>::Type;
 
