@@ -45,7 +45,7 @@ struct Replay {
   double scan_median_us = 0.0;         ///< all that is done with a scan, estimator and map
   double scan_mean_us = 0.0;
   double untrusted_share = 0.0;        ///< of the scans
-  double compass_share = 0.0;     ///< Compass::share, the mean over scans
+  double compass_share = 0.0;          ///< Compass::share, the mean over scans
   double compass_heading_share = 0.0;  ///< of the scans in which the compass gave a heading
   double wrongly_occupied_share = 0.0; ///< of the known cells further than 0.2 m from any wall
 };
