@@ -108,8 +108,6 @@ TEST_CASE("An overlay lists the cells it touched in the order of their first tou
   REQUIRE(overlay.touched() == expected);
   overlay.reset(map);
   REQUIRE(overlay.touched().empty());
-  static_cast<void>(overlay.state({2, 0}));
-  REQUIRE(overlay.touched() == std::vector<Offset>{offset_of(2)});
 }
 
 TEST_CASE("An overlay forgets its changes however often it starts over", "[map]") {

@@ -51,6 +51,13 @@ class Map {
   /// The stamp of the last scan; 0 before the first.
   [[nodiscard]] ScanStamp stamp() const { return stamp_; }
 
+  /// The cells that a pass may change; the others ignore passes. Of a plane only.
+  [[nodiscard]] const CellBits& heeding() const
+    requires(Dim == 2)
+  {
+    return heeding_;
+  }
+
   /// Natural log-odds of a cell; 0 where nothing was ever measured.
   [[nodiscard]] float log_odds(const Index<Dim>& index) const { return Cell::log_odds(grid_.value(index)); }
   [[nodiscard]] float log_odds(Offset offset) const { return Cell::log_odds(grid_[offset]); }
@@ -69,11 +76,12 @@ class Map {
       throw std::invalid_argument("Map::update: the covariance is not finite, symmetric and positive semi-definite");
     }
     require_reach(T_map_sensor.position(), scan.range_max_m() + hit_push_m());
-    grid_.grow_to_include(cells_in_reach(lattice(), scan, T_map_sensor, hit_push_m()));
+    beams_.take(cell_, scan, T_map_sensor, covariance.template topLeftCorner<Dim, Dim>(), hit_push_m());
+    grow_to_include(beams_.reach(lattice()));
     advance_stamp();
-    Writer writer{grid_};
-    return integrate_scan<Cell, Dim>(cell_, lattice(), writer, scan, T_map_sensor,
-                                     covariance.template topLeftCorner<Dim, Dim>(), hit_push_m(), stamp_);
+    Writer writer{*this};
+    beams_.write(cell_, lattice(), writer, stamp_);
+    return beams_.report();
   }
 
   /// Makes room for a box of points, in metres, so that prediction there needs no growth. Throws std::length_error for
@@ -81,15 +89,26 @@ class Map {
   void reserve(const Box<Point<Dim>>& box_m) {
     require_reach(box_m.lower, 0.0);
     require_reach(box_m.upper, 0.0);
-    grid_.grow_to_include(lattice().cells_of(box_m));
+    grow_to_include(lattice().cells_of(box_m));
   }
 
  private:
   struct Writer {
-    Grid<State, Dim>& grid;
-    const State& seen(const Index<Dim>& index) const { return grid[grid.offset_of(index)]; }
-    State& state(const Index<Dim>& index) { return grid[grid.offset_of(index)]; }
+    Map& map;
+
+    State& state(const Index<Dim>& index) { return map.grid_[map.grid_.offset_of(index)]; }
+    [[nodiscard]] const State& seen(const Index<Dim>& index) const { return map.grid_[map.grid_.offset_of(index)]; }
+    void heed(const Index<Dim>& index) {
+      if constexpr (Dim == 2) map.heeding_.set(index, true);
+    }
+    [[nodiscard]] CellBits::Word word(const Index<2>& tile) const { return map.heeding_.word(tile); }
+    void clear(const Index<2>& tile, CellBits::Word mask) { map.heeding_.clear(tile, mask); }
   };
+
+  void grow_to_include(const IndexBox<Dim>& cells) {
+    grid_.grow_to_include(cells);
+    if constexpr (Dim == 2) heeding_.grow_to_include(grid_.box());
+  }
 
   void require_reach(const Point<Dim>& point_m, double margin_m) const {
     const double reach_m = resolution_m() * static_cast<double>(std::numeric_limits<int>::max() / 2);
@@ -115,6 +134,8 @@ class Map {
   Cell cell_;
   MapParams params_;
   Grid<State, Dim> grid_;
+  CellBits heeding_{Lattice<2>(params_.resolution_m), true};  ///< cells of a plane that a pass may change
+  MapBeams<Cell, Dim> beams_;                                 ///< scratch
   ScanStamp stamp_ = 0;
 };
 

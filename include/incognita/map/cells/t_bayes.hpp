@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 #include "incognita/core/error.hpp"
+#include "incognita/core/fast_log.hpp"
 #include "incognita/map/cell_policy.hpp"
 #include "incognita/sensor/dvl.hpp"
 
@@ -72,6 +74,7 @@ class TBayes {
     require_non_negative("TBayes", "erosion_log_odds", static_cast<double>(params.erosion_log_odds));
     require_non_negative("TBayes", "erosion_residual_m", params.erosion_residual_m);
     require_non_negative("TBayes", "erosion_residual_sigmas", params.erosion_residual_sigmas);
+    per_hit_ = 1.0F / static_cast<float>(params.hits_max);
   }
 
   [[nodiscard]] const Params& params() const { return params_; }
@@ -79,9 +82,10 @@ class TBayes {
   [[nodiscard]] Beam beam(double variance_m2) const {
     const double occupied_m2 = variance_m2 + params_.dvl.occupied_m2;
     const double unoccupied_m2 = variance_m2 + params_.dvl.unoccupied_m2;
-    return {static_cast<float>(log_normal_density(0.0, occupied_m2)),
+    constexpr double two_pi = 2.0 * std::numbers::pi;
+    return {static_cast<float>(-0.5 * fast_log(two_pi * occupied_m2)),
             static_cast<float>(0.5 / occupied_m2),
-            static_cast<float>(log_normal_density(0.0, unoccupied_m2)),
+            static_cast<float>(-0.5 * fast_log(two_pi * unoccupied_m2)),
             static_cast<float>(0.5 / unoccupied_m2),
             static_cast<float>(std::max(params_.erosion_residual_m,
                                         params_.erosion_residual_sigmas * std::sqrt(variance_m2)))};
@@ -118,7 +122,7 @@ class TBayes {
 
  private:
   [[nodiscard]] float increment(const State& state, const Beam& beam, float residual_m) const {
-    const float unoccupied_weight = static_cast<float>(state.hits) / static_cast<float>(params_.hits_max);
+    const float unoccupied_weight = static_cast<float>(state.hits) * per_hit_;
     const float r2 = residual_m * residual_m;
     return (1.0F - unoccupied_weight) * (beam.occupied_offset - r2 * beam.occupied_half_precision) -
            unoccupied_weight * (beam.unoccupied_offset - r2 * beam.unoccupied_half_precision);
@@ -129,6 +133,7 @@ class TBayes {
   }
 
   Params params_;
+  float per_hit_ = 0.0F;
 };
 
 static_assert(CellPolicy<TBayes>);
