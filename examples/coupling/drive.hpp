@@ -97,8 +97,8 @@ struct Drive {
   for (int step = 1; step <= steps; ++step) {
     belief = filter.imagine_motion(belief, {1.0 / kStepsPerMetre, 0.0, 0.0}, 1.0 / kStepsPerMetre);
     if (step % (kStepsPerMetre / scans_per_m) == 0) {
-      workspace.overlay.reset(map);
-      incognita::predict_scan(belief.pose.position(), prediction.blocked_above, workspace);
+      workspace.overlay.look_at(map);
+      incognita::predict_scan(belief.pose.position(), workspace);
       belief = filter.imagine_scan(belief, workspace.hits, workspace.scan.size(), 1.0);
       map.update(scene.scan(belief.pose.position(), beams), belief.pose, belief.covariance);
     }

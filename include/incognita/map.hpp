@@ -3,6 +3,7 @@
 /// without copying it. `classify` reduces a belief to free, occupied and unknown for frontiers and planning.
 #pragma once
 
+#include "incognita/map/cell_layers.hpp"
 #include "incognita/map/cell_policy.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/map/cells/t_bayes.hpp"

@@ -155,7 +155,7 @@ double slow_gain(Map<Cell> map, const Measure& measure, PoseBelief belief, const
     Scan<2> scan(circular_beams(static_cast<std::size_t>(params.beams), params.range_max_m));
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-      const BlockedCell blocked = first_blocked(map, at, scan.direction(beam), params.blocked_above);
+      const BlockedCell blocked = first_blocked(map, at, scan.direction(beam), map.blocked_above());
       if (blocked.enter_m >= params.range_max_m) continue;
       const double range_m = 0.5 * (blocked.enter_m + blocked.leave_m) - map.hit_push_m();
       if (range_m <= 0.0 || range_m >= params.range_max_m) {
@@ -180,6 +180,13 @@ double slow_gain(Map<Cell> map, const Measure& measure, PoseBelief belief, const
 }
 
 template <class Cell>
+std::size_t changed_count(const Overlay<Cell>& overlay) {
+  std::size_t count = 0;
+  overlay.for_each_changed([&](const auto&...) { ++count; });
+  return count;
+}
+
+template <class Cell>
 void check_against_slow_gain(std::uint64_t seed, const Cell& cell = Cell{}) {
   Random random(seed);
   for (int round = 0; round < 6; ++round) {
@@ -194,7 +201,7 @@ void check_against_slow_gain(std::uint64_t seed, const Cell& cell = Cell{}) {
     const DvlEkf ekf = ekf_at(start);
     const double gain = information_gain(map, table, ekf, path, params, workspace);
     const double slow = slow_gain(map, measure, start, ekf.params().noise, &ekf.params().imagined, path, params);
-    const double table_error = 2.0 * table.max_error_nats() * static_cast<double>(workspace.overlay.touched().size());
+    const double table_error = 2.0 * table.max_error_nats() * static_cast<double>(changed_count(workspace.overlay));
     CAPTURE(round, table_error);
     CHECK(gain > 10.0);
     CHECK(gain == Approx(slow).epsilon(1e-5).margin(table_error));
@@ -242,7 +249,7 @@ TEST_CASE("a path that leads nowhere gains nothing") {
   const EntropyTable table(Shannon{});
   CHECK(information_gain(map, table, filter, Polyline{}, coarse_params(), workspace) == 0.0);
   CHECK(information_gain(map, table, filter, Polyline({path.points_m().front()}), coarse_params(), workspace) == 0.0);
-  CHECK(workspace.overlay.touched().empty());
+  CHECK(changed_count(workspace.overlay) == 0);
 }
 
 TEST_CASE("a workspace that has served before gives the same bits as a new one") {
@@ -292,20 +299,20 @@ TEST_CASE("far before the end of its beams a more certain pose clears unknown ce
                                             path.length_m() / params.speed_m_per_s);
   const double sigma_m = position_sigma_m(covariance);
   const double s_max_m2 = sigma_m * sigma_m + TBayes::Params{}.dvl.occupied_m2;
-  REQUIRE(certain.overlay.touched() == uncertain.overlay.touched());
   std::size_t compared = 0;
   std::size_t strictly = 0;
-  for (const Offset offset : certain.overlay.touched()) {
-    const double distance_m = (map.lattice().center_m(map.grid().index_at(offset)) - goal).norm();
+  REQUIRE(changed_count(certain.overlay) == changed_count(uncertain.overlay));
+  certain.overlay.for_each_changed([&](const Index<2>& index, const TBayes::State&, const TBayes::State&) {
+    const double distance_m = (map.lattice().center_m(index) - goal).norm();
     const double residual_m = params.range_max_m - distance_m;
-    if (residual_m <= 0.0 || residual_m * residual_m < s_max_m2) continue;
+    if (residual_m <= 0.0 || residual_m * residual_m < s_max_m2) return;
     ++compared;
-    const float sure = certain.overlay.touched_log_odds(offset);
-    const float unsure = uncertain.overlay.touched_log_odds(offset);
+    const float sure = certain.overlay.log_odds(index);
+    const float unsure = uncertain.overlay.log_odds(index);
     CHECK(sure <= unsure);
     CHECK(shannon(sure) <= shannon(unsure));
     if (sure < unsure) ++strictly;
-  }
+  });
   CHECK(compared > 200);
   CHECK(strictly > 50);
 }

@@ -98,9 +98,10 @@ void evaluate_candidates(const Map<Cell, 2>& map, const EntropyTable& entropy, c
                          std::vector<Candidate>& candidates, const GainParams& params, int threads,
                          std::vector<GainWorkspace<Cell>>& workspaces) {
   workspaces.resize(std::max(workspaces.size(), static_cast<std::size_t>(worker_count(threads))));
+  for (GainWorkspace<Cell>& workspace : workspaces) workspace.overlay.look_at(map);
   for_each_index(candidates.size(), threads, [&](std::size_t index, int worker) {
     Candidate& candidate = candidates[index];
-    candidate.gain_nats = information_gain(map, entropy, filter, candidate.path, params,
+    candidate.gain_nats = information_gain(entropy, filter, candidate.path, params,
                                            workspaces[static_cast<std::size_t>(worker)]);
   });
 }

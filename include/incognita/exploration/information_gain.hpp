@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,7 +13,7 @@
 #include "incognita/core/error.hpp"
 #include "incognita/entropy/log_odds_table.hpp"
 #include "incognita/estimation/estimator.hpp"
-#include "incognita/grid/traversal.hpp"
+#include "incognita/grid/segment_walk.hpp"
 #include "incognita/map/overlay.hpp"
 #include "incognita/planning/polyline.hpp"
 
@@ -26,9 +27,6 @@ struct GainParams {
   double range_max_m = 10.0;   ///< of the robot's sensor
   double speed_m_per_s = 1.0;  ///< of the robot along the path: how much time Q of (7) has
   double scan_rate_hz = 10.0;  ///< of the robot's sensor: how many scans a predicted one stands for
-  /// A predicted beam ends in the first cell with log-odds above this; all other cells, unknown ones too, are
-  /// transparent up to the range.
-  float blocked_above = 0.4F;
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -43,7 +41,7 @@ struct GainParams {
 /// Scratch of one thread, kept from one evaluation to the next.
 template <CellPolicy Cell>
 struct GainWorkspace {
-  Overlay<Cell, 2> overlay;
+  Overlay<Cell> overlay;
   Scan<2> scan{BeamPattern<2>{}};
   std::vector<RayObservation> hits;
 
@@ -75,58 +73,55 @@ struct RayInterval {
   return interval;
 }
 
-/// Predicts the scan that `workspace.scan`'s beams would read at `position`, in the axes of the map, from the overlay,
-/// and the cells they would hit into `workspace.hits`.
+/// Predicts the scan that `workspace.scan`'s beams would read at `position`, in the axes of the map, from the overlay: a
+/// beam ends in the first cell that is blocked (see MapParams). The cells that beams hit go into `workspace.hits`.
 template <CellPolicy Cell>
-void predict_scan(const Eigen::Vector2d& position, float blocked_above, GainWorkspace<Cell>& workspace) {
-  const Overlay<Cell, 2>& overlay = workspace.overlay;
+void predict_scan(const Eigen::Vector2d& position, GainWorkspace<Cell>& workspace) {
+  const Overlay<Cell>& overlay = workspace.overlay;
   const Lattice<2>& lattice = overlay.map().lattice();
   const double push_m = overlay.map().hit_push_m();
+  const Point<2> origin = lattice.to_cells(position);
   Scan<2>& scan = workspace.scan;
   workspace.hits.clear();
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    const Eigen::Vector2d direction = scan.direction(beam);
+    const Eigen::Vector2d& direction = scan.direction(beam);
     scan.set_range_m(beam, scan.range_max_m());
-    const Eigen::Vector2d end_m = sum(position, scaled(direction, scan.range_max_m()));
-    traverse<2>(lattice, position, end_m, [&](const Index<2>& index) {
-      const float log_odds = overlay.log_odds(index);
-      if (!(log_odds > blocked_above)) return true;
-      // The reading that puts the hit in the middle of the beam's way through the cell.
-      const RayInterval interval = ray_through_cell(lattice, index, position, direction);
-      const double range_m = 0.5 * (interval.enter_m + interval.leave_m) - push_m;
-      const Eigen::Vector2d to_cell = difference(lattice.center_m(index), position);
-      const double distance_m = norm(to_cell);
-      if (range_m > 0.0 && range_m < scan.range_max_m() && distance_m > 0.0) {
-        scan.set_range_m(beam, range_m);
-        workspace.hits.push_back({{to_cell[0] / distance_m, to_cell[1] / distance_m}, range_m + push_m - distance_m,
-                                  probability_of_log_odds(static_cast<double>(log_odds))});
-      } else {
-        scan.set_range_m(beam, 0.0);  // the cell is too near to be measured: the beam is left out
-      }
-      return false;
-    });
+    const Point<2> end = lattice.to_cells(sum(position, scaled(direction, scan.range_max_m())));
+    const std::optional<Index<2>> index = first_set(overlay.layers().blocked, origin, end);
+    if (!index) continue;
+    // The reading that puts the hit in the middle of the beam's way through the cell.
+    const RayInterval interval = ray_through_cell(lattice, *index, position, direction);
+    const double range_m = 0.5 * (interval.enter_m + interval.leave_m) - push_m;
+    const Eigen::Vector2d to_cell = difference(lattice.center_m(*index), position);
+    const double distance_m = norm(to_cell);
+    if (range_m > 0.0 && range_m < scan.range_max_m() && distance_m > 0.0) {
+      scan.set_range_m(beam, range_m);
+      workspace.hits.push_back({{to_cell[0] / distance_m, to_cell[1] / distance_m}, range_m + push_m - distance_m,
+                                probability_of_log_odds(static_cast<double>(overlay.log_odds(*index)))});
+    } else {
+      scan.set_range_m(beam, 0.0);  // the cell is too near to be measured: the beam is left out
+    }
   }
 }
 
-/// H(map) - H(map after the scans predicted along `path`), in nats: (16), or (18), BIG, with the entropy table of
+/// H(map) - H(map after the scans predicted along `path`), in nats, of the map that workspace.overlay looks at: (16), or (18), BIG, with the entropy table of
 /// `Behavioral`. Summed over the cells that the predicted scans touch; the others cancel. At each pose, in this order:
 /// motion (7), predicted scan, covariance (11a) given the map so far, cells (15) given that covariance. The path starts
 /// at the robot; its first point brings nothing. Cells in reach of the path must lie in the map's box (Map::reserve);
 /// std::length_error otherwise.
 /// O(poses * beams * cells a beam).
 template <CellPolicy Cell, class Filter>
-[[nodiscard]] double information_gain(const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
-                                      const Polyline& path, const GainParams& params,
-                                      GainWorkspace<Cell>& workspace) {
+[[nodiscard]] double information_gain(const EntropyTable& entropy, const Filter& filter, const Polyline& path,
+                                      const GainParams& params, GainWorkspace<Cell>& workspace) {
   workspace.prepare(params);
-  workspace.overlay.reset(map);
+  workspace.overlay.forget();
   PoseBelief belief = filter.belief();
   const auto drive_and_scan = [&](const Eigen::Vector2d& to) {
     const Eigen::Vector2d step = difference(to, belief.pose.position());
     const double duration_s = norm(step) / params.speed_m_per_s;
     const Pose2 next{to[0], to[1], duration_s > 0.0 ? std::atan2(step[1], step[0]) : belief.pose.yaw_rad};
     belief = filter.imagine_motion(belief, belief.pose.inverse() * next, duration_s);
-    predict_scan(to, params.blocked_above, workspace);
+    predict_scan(to, workspace);
     const double scan_count = std::max(1.0, duration_s * params.scan_rate_hz);
     belief = filter.imagine_scan(belief, workspace.hits, workspace.scan.size(), scan_count);
     workspace.overlay.update(workspace.scan, Pose2{to[0], to[1], 0.0}, position_covariance(belief.covariance));
@@ -136,10 +131,18 @@ template <CellPolicy Cell, class Filter>
   for (std::size_t i = 1; i < poses.size(); ++i) drive_and_scan(poses[i]);
 
   double gain_nats = 0.0;
-  for (const Offset offset : workspace.overlay.touched()) {
-    gain_nats += entropy(map.log_odds(offset)) - entropy(workspace.overlay.touched_log_odds(offset));
-  }
+  workspace.overlay.for_each_changed([&](const Index<2>&, const auto& before, const auto& after) {
+    gain_nats += entropy(Cell::log_odds(before)) - entropy(Cell::log_odds(after));
+  });
   return gain_nats;
+}
+
+/// The same of a map that the workspace has not looked at yet. O(tiles of the map) more.
+template <CellPolicy Cell, class Filter>
+[[nodiscard]] double information_gain(const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
+                                      const Polyline& path, const GainParams& params, GainWorkspace<Cell>& workspace) {
+  workspace.overlay.look_at(map);
+  return information_gain(entropy, filter, path, params, workspace);
 }
 
 }  // namespace incognita

@@ -10,15 +10,10 @@
 
 namespace incognita {
 
-/// Calls visit(index) for each cell that the segment passes, from the cell that holds `from_m` to the cell that holds
-/// `to_m`, both included: exactly 1 + |i_to - i_from|_1 cells, each a face neighbour of the last. A visit that returns
-/// bool ends the walk by returning false. Where the segment meets an edge of the lattice exactly, the lower axis steps
-/// first. Both points must be finite and within 2^31 cells of the origin. O(cells passed), no allocation.
+/// Calls visit(index) for each cell that the segment between two points in lattice coordinates passes, see traverse.
 template <int Dim, class Visit>
-void traverse(const Lattice<Dim>& lattice, const Point<Dim>& from_m, const Point<Dim>& to_m, Visit&& visit) {
+void traverse_cells(const Point<Dim>& from, const Point<Dim>& to, Visit&& visit) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  const Point<Dim> from = lattice.to_cells(from_m);
-  const Point<Dim> to = lattice.to_cells(to_m);
   Index<Dim> index;
   Index<Dim> last;
   for (int axis = 0; axis < Dim; ++axis) {
@@ -67,6 +62,15 @@ void traverse(const Lattice<Dim>& lattice, const Point<Dim>& from_m, const Point
       next[axis] = crossed[axis] < crossings[axis] ? first[axis] + crossed[axis] * period[axis] : never;
     }
   }
+}
+
+/// Calls visit(index) for each cell that the segment passes, from the cell that holds `from_m` to the cell that holds
+/// `to_m`, both included: exactly 1 + |i_to - i_from|_1 cells, each a face neighbour of the last. A visit that returns
+/// bool ends the walk by returning false. Where the segment meets an edge of the lattice exactly, the lower axis steps
+/// first. Both points must be finite and within 2^31 cells of the origin. O(cells passed), no allocation.
+template <int Dim, class Visit>
+void traverse(const Lattice<Dim>& lattice, const Point<Dim>& from_m, const Point<Dim>& to_m, Visit&& visit) {
+  traverse_cells<Dim>(lattice.to_cells(from_m), lattice.to_cells(to_m), visit);
 }
 
 }  // namespace incognita

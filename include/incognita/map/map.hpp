@@ -5,10 +5,12 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "incognita/geometry/pose.hpp"
 #include "incognita/grid/grid.hpp"
+#include "incognita/map/cell_layers.hpp"
 #include "incognita/map/cell_policy.hpp"
 #include "incognita/map/cells/t_bayes.hpp"
 #include "incognita/map/occupancy.hpp"
@@ -25,6 +27,8 @@ struct MapParams {
   /// How far behind the measured end point a hit lies, in cells, >= 0. 0 is the paper's literal form; without a push
   /// walls become two cells thick (reading of Seo et al., (6)).
   double hit_push_cells = 0.5;
+  /// A predicted ray ends in the first cell with log-odds above this; all other cells, unknown ones too, are transparent.
+  float blocked_above = 0.4F;
 };
 
 /// The map's frame is that of the poses it is given; its lattice starts at the origin. The map grows as scans ask.
@@ -40,22 +44,32 @@ class Map {
   explicit Map(const MapParams& params = {}, Cell cell = Cell{})
       : cell_(std::move(cell)), params_(params), grid_(Lattice<Dim>(params.resolution_m)) {
     require_non_negative("Map", "hit_push_cells", params.hit_push_cells);
+    require(params.blocked_above >= 0.0F && std::isfinite(params.blocked_above), "Map", "blocked_above",
+            static_cast<double>(params.blocked_above), "finite and >= 0");
   }
 
   [[nodiscard]] const Cell& cell() const { return cell_; }
   [[nodiscard]] const Grid<State, Dim>& grid() const { return grid_; }
   [[nodiscard]] const Lattice<Dim>& lattice() const { return grid_.lattice(); }
   [[nodiscard]] double resolution_m() const { return params_.resolution_m; }
+  [[nodiscard]] float blocked_above() const { return params_.blocked_above; }
   [[nodiscard]] double hit_push_m() const { return params_.hit_push_cells * params_.resolution_m; }
 
   /// The stamp of the last scan; 0 before the first.
   [[nodiscard]] ScanStamp stamp() const { return stamp_; }
 
-  /// The cells that a pass may change; the others ignore passes. Of a plane only.
-  [[nodiscard]] const CellBits& heeding() const
+  /// What is known of the cells of a plane in one bit each; its changes are those of the last update.
+  [[nodiscard]] const CellLayers& layers() const
     requires(Dim == 2)
   {
-    return heeding_;
+    return layers_;
+  }
+
+  /// Access to the states of a tile of the plane, by bit; only for cells of the map's box.
+  [[nodiscard]] auto states_of(const Index<2>& tile) const
+    requires(Dim == 2)
+  {
+    return tile_states(grid_.values().data(), tile);
   }
 
   /// Natural log-odds of a cell; 0 where nothing was ever measured.
@@ -76,11 +90,16 @@ class Map {
       throw std::invalid_argument("Map::update: the covariance is not finite, symmetric and positive semi-definite");
     }
     require_reach(T_map_sensor.position(), scan.range_max_m() + hit_push_m());
-    beams_.take(cell_, scan, T_map_sensor, covariance.template topLeftCorner<Dim, Dim>(), hit_push_m());
-    grow_to_include(beams_.reach(lattice()));
+    beams_.take(cell_, lattice(), scan, T_map_sensor, covariance.template topLeftCorner<Dim, Dim>(), hit_push_m());
+    grow_to_include(beams_.reach());
     advance_stamp();
-    Writer writer{*this};
-    beams_.write(cell_, lattice(), writer, stamp_);
+    if constexpr (Dim == 2) {
+      layers_.forget_changes();
+      beams_.write(cell_, layers_, params_.blocked_above, stamp_,
+                   [this](Offset, const Index<2>& tile, CellBits::Word) { return tile_states(grid_.values().data(), tile); });
+    } else {
+      beams_.write(cell_, grid_, stamp_);
+    }
     return beams_.report();
   }
 
@@ -93,21 +112,21 @@ class Map {
   }
 
  private:
-  struct Writer {
-    Map& map;
-
-    State& state(const Index<Dim>& index) { return map.grid_[map.grid_.offset_of(index)]; }
-    [[nodiscard]] const State& seen(const Index<Dim>& index) const { return map.grid_[map.grid_.offset_of(index)]; }
-    void heed(const Index<Dim>& index) {
-      if constexpr (Dim == 2) map.heeding_.set(index, true);
-    }
-    [[nodiscard]] CellBits::Word word(const Index<2>& tile) const { return map.heeding_.word(tile); }
-    void clear(const Index<2>& tile, CellBits::Word mask) { map.heeding_.clear(tile, mask); }
+  struct NoLayers {
+    explicit NoLayers(const Lattice<Dim>&) {}
   };
+
+  template <class States>
+  [[nodiscard]] auto tile_states(States* states, const Index<2>& tile) const {
+    return [states, first = grid_.offset_of(CellBits::cell_of(tile, 0)), stride = grid_.stride(1)](int bit) -> States& {
+      constexpr int in_tile = CellBits::tile_side - 1;
+      return states[first + (bit & in_tile) + (bit >> CellBits::tile_shift) * stride];
+    };
+  }
 
   void grow_to_include(const IndexBox<Dim>& cells) {
     grid_.grow_to_include(cells);
-    if constexpr (Dim == 2) heeding_.grow_to_include(grid_.box());
+    if constexpr (Dim == 2) layers_.grow_to_include(grid_.box());
   }
 
   void require_reach(const Point<Dim>& point_m, double margin_m) const {
@@ -134,8 +153,8 @@ class Map {
   Cell cell_;
   MapParams params_;
   Grid<State, Dim> grid_;
-  CellBits heeding_{Lattice<2>(params_.resolution_m), true};  ///< cells of a plane that a pass may change
-  MapBeams<Cell, Dim> beams_;                                 ///< scratch
+  std::conditional_t<Dim == 2, CellLayers, NoLayers> layers_{lattice()};
+  MapBeams<Cell, Dim> beams_;  // scratch
   ScanStamp stamp_ = 0;
 };
 

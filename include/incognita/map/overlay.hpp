@@ -1,9 +1,10 @@
 /// What a map would be after scans that were not taken: changes kept beside the map, which stays as it is.
 #pragma once
 
-#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -11,119 +12,109 @@
 
 namespace incognita {
 
-/// Cells are copied from the map when a predicted scan first touches them. Starting over costs O(1): a cell belongs to
-/// the overlay only while its epoch is the current one. Memory: sizeof(State) + 4 bytes for each cell of the map's
-/// box, kept for the next use. One overlay a thread; the map must not change between reset and the last use.
-template <CellPolicy Cell, int Dim = 2>
+/// Cells of a plane are copied from the map when a predicted scan first changes them. Starting over costs as much as what
+/// was changed. Memory: half a byte a cell of the map's box, and a tile of 64 states for each tile changed at once, kept for
+/// the next use. One overlay a thread; the map must not change between look_at and the last use.
+template <CellPolicy Cell>
 class Overlay {
  public:
   using State = typename Cell::State;
 
-  /// Forgets all changes and looks at `map` from now on. The map must outlive the use.
-  void reset(const Map<Cell, Dim>& map) {
+  /// Forgets all changes and looks at `map`, as it is now, from now on. The map must outlive the use. O(tiles of the map).
+  void look_at(const Map<Cell, 2>& map) {
     map_ = &map;
+    layers_ = map.layers();
+    layers_->forget_changes();
+    slots_.assign(layers_->changed.tiles().size(), 0);
+    used_ = 0;
     stamp_ = map.stamp();
-    touched_.clear();
-    std::size_t tiles = 0;
-    if constexpr (Dim == 2) tiles = map.heeding().tiles().size();
-    if (epochs_.size() != map.grid().size() || tile_epochs_.size() != tiles) {
-      states_.resize(map.grid().size());
-      epochs_.assign(map.grid().size(), 0);
-      words_.resize(tiles);
-      tile_epochs_.assign(tiles, 0);
-      epoch_ = 0;
-    }
-    if (++epoch_ == 0) {
-      std::fill(epochs_.begin(), epochs_.end(), 0);
-      std::fill(tile_epochs_.begin(), tile_epochs_.end(), 0);
-      epoch_ = 1;
-    }
   }
 
-  [[nodiscard]] const Map<Cell, Dim>& map() const { return *map_; }
+  /// Forgets all changes. O(tiles changed).
+  void forget() {
+    const CellLayers& seen = map_->layers();
+    const Grid<CellBits::Word, 2>& tiles = layers_->changed.tiles();
+    for (const Index<2>& tile : layers_->changed_tiles) {
+      const Offset place = tiles.offset_of(tile);
+      layers_->heeding.tiles()[place] = seen.heeding.tiles()[place];
+      layers_->blocked.tiles()[place] = seen.blocked.tiles()[place];
+    }
+    layers_->forget_changes();
+    used_ = 0;
+    stamp_ = map_->stamp();
+  }
+
+  [[nodiscard]] const Map<Cell, 2>& map() const { return *map_; }
+
+  /// The cells' layers as the predicted scans leave them; `changed` are the cells that differ from the map, or may.
+  [[nodiscard]] const CellLayers& layers() const { return *layers_; }
 
   /// The predicted log-odds of a cell; 0 outside of the map's box.
-  [[nodiscard]] float log_odds(const Index<Dim>& index) const {
+  [[nodiscard]] float log_odds(const Index<2>& index) const {
     if (!map_->grid().contains(index)) return 0.0F;
-    return Cell::log_odds(seen(map_->grid().offset_of(index)));
+    if (!layers_->changed.get(index)) return map_->log_odds(index);
+    const Index<2> tile = CellBits::tile_of(index);
+    const auto slot = slots_[static_cast<std::size_t>(layers_->changed.tiles().offset_of(tile))];
+    return Cell::log_odds(states_[slot + static_cast<std::size_t>(std::countr_zero(CellBits::mask_of(index)))]);
+  }
+
+  /// Calls visit(index, before, after) for each changed cell with its states in the map and here, tile by tile.
+  template <class Visit>
+  void for_each_changed(Visit&& visit) const {
+    const Grid<CellBits::Word, 2>& changed = layers_->changed.tiles();
+    for (const Index<2>& tile : layers_->changed_tiles) {
+      const Offset place = changed.offset_of(tile);
+      const auto before = map_->states_of(tile);
+      const State* const after = states_.data() + slots_[static_cast<std::size_t>(place)];
+      for (CellBits::Word left = changed[place]; left != 0; left &= left - 1U) {
+        const int bit = std::countr_zero(left);
+        visit(CellBits::cell_of(tile, bit), before(bit), after[bit]);
+      }
+    }
   }
 
   /// Writes a predicted scan, as Map::update would. Throws std::length_error when it reaches out of the map's box
   /// (Map::reserve makes room), and after more predicted scans than stamps are left for (5,535).
-  void update(const Scan<Dim>& scan, const Pose<Dim>& T_map_sensor,
-              const Eigen::Matrix<double, Dim, Dim>& position_covariance_m2) {
+  void update(const Scan<2>& scan, const Pose2& T_map_sensor, const Eigen::Matrix2d& position_covariance_m2) {
     if (stamp_ == static_cast<ScanStamp>(-1)) throw std::length_error("Overlay::update: too many predicted scans");
-    beams_.take(map_->cell(), scan, T_map_sensor, position_covariance_m2, map_->hit_push_m());
-    if (!map_->grid().box().contains(beams_.reach(map_->lattice()))) {
+    beams_.take(map_->cell(), map_->lattice(), scan, T_map_sensor, position_covariance_m2, map_->hit_push_m());
+    if (!map_->grid().box().contains(beams_.reach())) {
       throw std::length_error("Overlay::update: a predicted scan reaches out of the map's box; see Map::reserve");
     }
     ++stamp_;
-    Writer writer{*this};
-    beams_.write(map_->cell(), map_->lattice(), writer, stamp_);
-  }
-
-  /// The cells touched since the last reset, in the order of their first touch.
-  [[nodiscard]] const std::vector<Offset>& touched() const { return touched_; }
-
-  /// The predicted log-odds of a touched cell.
-  [[nodiscard]] float touched_log_odds(Offset offset) const {
-    return Cell::log_odds(states_[static_cast<std::size_t>(offset)]);
+    beams_.write(map_->cell(), *layers_, map_->blocked_above(), stamp_,
+                 [this](Offset place, const Index<2>& tile, CellBits::Word fresh) { return states_of(place, tile, fresh); });
   }
 
  private:
-  struct Writer {
-    Overlay& overlay;
-
-    State& state(const Index<Dim>& index) { return overlay.state(index); }
-    [[nodiscard]] const State& seen(const Index<Dim>& index) const {
-      return overlay.seen(overlay.map_->grid().offset_of(index));
+  /// Access to the states of a tile, by bit; those that are fresh are copied from the map.
+  [[nodiscard]] auto states_of(Offset place, const Index<2>& tile, CellBits::Word fresh) {
+    std::uint32_t& slot = slots_[static_cast<std::size_t>(place)];
+    if (fresh != 0) {
+      if (fresh == layers_->changed.tiles()[place]) slot = open_slot();  // nothing of the tile was changed before
+      const auto seen = map_->states_of(tile);
+      for (CellBits::Word left = fresh; left != 0; left &= left - 1U) {
+        const int bit = std::countr_zero(left);
+        states_[slot + static_cast<std::size_t>(bit)] = seen(bit);
+      }
     }
-    void heed(const Index<Dim>& index) {
-      if constexpr (Dim == 2) overlay.own_word(CellBits::tile_of(index)) |= CellBits::mask_of(index);
-    }
-    [[nodiscard]] CellBits::Word word(const Index<2>& tile) const { return overlay.word(tile); }
-    void clear(const Index<2>& tile, CellBits::Word mask) { overlay.own_word(tile) &= ~mask; }
-  };
-
-  /// The state to change.
-  [[nodiscard]] State& state(const Index<Dim>& index) {
-    const Offset offset = map_->grid().offset_of(index);
-    State& state = states_[static_cast<std::size_t>(offset)];
-    if (!is_changed(offset)) {
-      state = map_->grid()[offset];
-      epochs_[static_cast<std::size_t>(offset)] = epoch_;
-      touched_.push_back(offset);
-    }
-    return state;
+    return [states = states_.data() + slot](int bit) -> State& { return states[bit]; };
   }
 
-  [[nodiscard]] const State& seen(Offset offset) const {
-    return is_changed(offset) ? states_[static_cast<std::size_t>(offset)] : map_->grid()[offset];
+  [[nodiscard]] std::uint32_t open_slot() {
+    const std::size_t slot = used_;
+    used_ += 64;
+    if (used_ > states_.size()) states_.resize(2 * used_);
+    return static_cast<std::uint32_t>(slot);
   }
 
-  [[nodiscard]] CellBits::Word word(const Index<2>& tile) const {
-    const auto place = static_cast<std::size_t>(map_->heeding().tiles().offset_of(tile));
-    return tile_epochs_[place] == epoch_ ? words_[place] : map_->heeding().tiles().values()[place];
-  }
-
-  [[nodiscard]] CellBits::Word& own_word(const Index<2>& tile) {
-    const auto place = static_cast<std::size_t>(map_->heeding().tiles().offset_of(tile));
-    words_[place] = word(tile);
-    tile_epochs_[place] = epoch_;
-    return words_[place];
-  }
-
-  [[nodiscard]] bool is_changed(Offset offset) const { return epochs_[static_cast<std::size_t>(offset)] == epoch_; }
-
-  const Map<Cell, Dim>* map_ = nullptr;
-  MapBeams<Cell, Dim> beams_;  // scratch
+  const Map<Cell, 2>* map_ = nullptr;
+  MapBeams<Cell, 2> beams_;            // scratch
+  std::optional<CellLayers> layers_;
+  std::vector<std::uint32_t> slots_;   // where the states of a changed tile begin
   std::vector<State> states_;
-  std::vector<std::uint32_t> epochs_;
-  std::vector<CellBits::Word> words_;  // of the map's heeding(), for tiles that have changed
-  std::vector<std::uint32_t> tile_epochs_;
-  std::uint32_t epoch_ = 0;
+  std::size_t used_ = 0;  // of states_
   ScanStamp stamp_ = 0;
-  std::vector<Offset> touched_;
 };
 
 }  // namespace incognita

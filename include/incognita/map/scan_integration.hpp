@@ -2,13 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "incognita/geometry/pose.hpp"
-#include "incognita/grid/cell_bits.hpp"
+#include "incognita/grid/segment_walk.hpp"
 #include "incognita/grid/traversal.hpp"
+#include "incognita/map/cell_layers.hpp"
 #include "incognita/map/cell_policy.hpp"
 #include "incognita/sensor/scan.hpp"
 
@@ -28,12 +32,15 @@ class MapBeams {
   /// Takes a scan's beams, seen from T_map_sensor. A hit lies `push_m` behind the measured end point: walls are measured at
   /// the face of a cell while h is the distance to its centre (reading of Seo et al., (6)). Only the position's covariance
   /// counts: h does not depend on the heading.
-  void take(const Cell& policy, const Scan<Dim>& scan, const Pose<Dim>& T_map_sensor,
+  void take(const Cell& policy, const Lattice<Dim>& lattice, const Scan<Dim>& scan, const Pose<Dim>& T_map_sensor,
             const Eigen::Matrix<double, Dim, Dim>& position_covariance_m2, double push_m) {
-    origin_m_ = T_map_sensor.position();
-    push_m_ = push_m;
+    const Point<Dim> origin_m = T_map_sensor.position();
     const Eigen::Matrix<double, Dim, Dim> rotation = T_map_sensor.rotation();
+    origin_ = lattice.to_cells(origin_m);
+    resolution_m_ = static_cast<float>(lattice.resolution_m());
+    push_m_ = push_m;
     beams_.clear();
+    beams_.reserve(scan.size());
     for (std::size_t beam = 0; beam < scan.size(); ++beam) {
       const Reading reading = scan.reading(beam);
       if (reading == Reading::invalid) continue;
@@ -41,8 +48,9 @@ class MapBeams {
       const bool is_hit = reading == Reading::hit;
       const double range_m = scan.range_m(beam);
       const double variance_m2 = std::max(0.0, direction.dot(position_covariance_m2 * direction));
-      beams_.push_back({origin_m_ + direction * (is_hit ? range_m + push_m : range_m), range_m, is_hit,
-                        policy.beam(variance_m2)});
+      const double length_m = is_hit ? range_m + push_m : range_m;
+      const Point<Dim> end = lattice.to_cells(origin_m + direction * length_m);
+      beams_.push_back({end, range_m, is_hit, policy.beam(variance_m2), Walk(origin_, end, !is_hit)});
     }
     report_ = {beams_.size(), scan.size() - beams_.size()};
   }
@@ -51,64 +59,146 @@ class MapBeams {
 
   /// A box that holds every cell that the beams meet, with a cell to spare on each side: an end point on the face of a cell
   /// may be rounded to either side of it.
-  [[nodiscard]] IndexBox<Dim> reach(const Lattice<Dim>& lattice) const {
-    Box<Point<Dim>> reach_m{origin_m_, origin_m_};
-    for (const Beam& beam : beams_) reach_m.stretch_to(beam.end_m);
-    return lattice.cells_of(reach_m).padded(1);
+  [[nodiscard]] IndexBox<Dim> reach() const {
+    Box<Point<Dim>> reach{origin_, origin_};
+    for (const Beam& beam : beams_) reach.stretch_to(beam.end);
+    IndexBox<Dim> cells{floor_of(reach.lower), floor_of(reach.upper)};
+    for (int axis = 0; axis < Dim; ++axis) ++cells.upper[axis];
+    return cells.padded(1);
   }
 
-  /// Updates each of `cells` that a beam hits or passes, first all hits, then all passes (so the order of the beams does not
-  /// decide which wins). O(cells passed), no allocation. cells.state(index) is a state to change. Most cells of most scans
-  /// ignore passes; cells.heed(index) is told of those that no longer do. In the plane `cells` knows which do, as words of
-  /// CellBits; in space each is asked, cells.seen(index).
-  template <class Cells>
-  void write(const Cell& policy, const Lattice<Dim>& lattice, Cells& cells, ScanStamp stamp) const {
-    const Point<Dim> origin = lattice.to_cells(origin_m_);
-    const auto resolution_m = static_cast<float>(lattice.resolution_m());
-    const auto residual_m = [&](const Index<Dim>& index, double range_m) {
-      float squared = 0.0F;
-      for (int axis = 0; axis < Dim; ++axis) {
-        const auto way = static_cast<float>(index[axis] + 0.5 - origin[axis]);
-        squared += way * way;
-      }
-      return static_cast<float>(range_m) - resolution_m * std::sqrt(squared);
-    };
+  /// Updates each cell that a beam hits or passes, first all hits, then all passes (so the order of the beams does not decide
+  /// which wins). `states` must hold the cells of reach(). O(cells passed), no allocation.
+  void write(const Cell& policy, Grid<typename Cell::State, Dim>& states, ScanStamp stamp) const {
     for (const Beam& beam : beams_) {
       if (!beam.is_hit) continue;
-      const Index<Dim> index = lattice.index_of(beam.end_m);
-      typename Cell::State& state = cells.state(index);
-      policy.hit(state, beam.constants, residual_m(index, beam.range_m + push_m_), stamp);
-      if (!policy.ignores_passes(state)) cells.heed(index);
+      const Index<Dim> index = floor_of(beam.end);
+      policy.hit(states[states.offset_of(index)], beam.constants, residual_m(index, beam.range_m + push_m_), stamp);
     }
     for (const Beam& beam : beams_) {
-      const Index<Dim> end = lattice.index_of(beam.end_m);
-      const auto pass = [&](const Index<Dim>& index) {
-        if (beam.is_hit && index == end) return true;
-        typename Cell::State& state = cells.state(index);
+      const Index<Dim> end = floor_of(beam.end);
+      traverse_cells<Dim>(origin_, beam.end, [&](const Index<Dim>& index) {
+        typename Cell::State& state = states[states.offset_of(index)];
+        if ((beam.is_hit && equal(index, end)) || policy.ignores_passes(state)) return;
         policy.pass(state, beam.constants, residual_m(index, beam.range_m), stamp);
-        return !policy.ignores_passes(state);
-      };
-      if constexpr (Dim == 2) {
-        traverse_set(lattice, origin_m_, beam.end_m, cells, pass);
+      });
+    }
+  }
+
+  /// The same in the plane, by way of the cells' layers, which are kept up to date: of cells that ignore passes nothing is
+  /// looked at but a bit. `cells_of(place, tile, fresh)` gives access to a tile's states by bit, of which `fresh` are accessed
+  /// for the first time since changes were forgotten. O(cells passed that do not ignore passes, and tiles passed).
+  template <class CellsOf>
+  void write(const Cell& policy, CellLayers& layers, float blocked_above, ScanStamp stamp, CellsOf&& cells_of)
+    requires(Dim == 2)
+  {
+    using Word = CellBits::Word;
+    Grid<Word, 2>& heeding = layers.heeding.tiles();
+    Grid<Word, 2>& blocked = layers.blocked.tiles();
+    for (const Beam& beam : beams_) {
+      if (!beam.is_hit) continue;
+      const Index<2> end = floor_of(beam.end);
+      const Index<2> tile = CellBits::tile_of(end);
+      const Offset place = heeding.offset_of(tile);
+      const Word cell = CellBits::mask_of(end);
+      typename Cell::State& state = cells_of(place, tile, layers.mark_changed(place, tile, cell))(std::countr_zero(cell));
+      policy.hit(state, beam.constants, residual_m(end, beam.range_m + push_m_), stamp);
+      heeding[place] = policy.ignores_passes(state) ? heeding[place] & ~cell : heeding[place] | cell;
+      blocked[place] = Cell::log_odds(state) > blocked_above ? blocked[place] | cell : blocked[place] & ~cell;
+    }
+    // In three rounds over all beams, each without a branch that depends on what is met: which tiles may matter, which cells
+    // of them do, and then those cells. What a pass settles in the last round may be passed again in it, which changes nothing.
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < beams_.size(); ++b) {
+      const Beam& beam = beams_[b];
+      const std::size_t needed = count + static_cast<std::size_t>(beam.walk.tile_columns());
+      if (possible_.size() < needed) possible_.resize(2 * needed);
+      beam.walk.survey(layers.heeding, [&](int column, bool may_meet) {
+        possible_[count] = {static_cast<std::uint32_t>(b), column};
+        count += static_cast<std::size_t>(may_meet);
+      });
+    }
+    std::size_t met_count = 0;
+    met_.resize(std::max(met_.size(), 2 * count + 4));
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [b, column] = possible_[i];
+      std::array<SegmentWalk::TileCells, 2> found;
+      if (beams_[b].walk.find_set(layers.heeding, column, found)) {
+        for (const SegmentWalk::TileCells& tile : found) {
+          met_[met_count] = {tile, b};
+          met_count += static_cast<std::size_t>(tile.cells != 0);
+        }
       } else {
-        traverse<Dim>(lattice, origin_m_, beam.end_m, [&](const Index<Dim>& index) {
-          if (!policy.ignores_passes(cells.seen(index))) static_cast<void>(pass(index));
+        beams_[b].walk.visit_exactly(layers.heeding, column, origin_, beams_[b].end, [&](const SegmentWalk::TileCells& tile) {
+          met_[met_count++] = {tile, b};
+          return true;
         });
+        met_.resize(std::max(met_.size(), met_count + 2 * (count - i) + 4));
       }
+    }
+    for (std::size_t i = 0; i < met_count; ++i) {
+      const auto& [place, tile, cells] = met_[i].cells;
+      const Beam& beam = beams_[met_[i].beam];
+      const auto states = cells_of(place, tile, layers.mark_changed(place, tile, cells));
+      Word ignoring = 0;
+      Word blocking = 0;
+      for (Word left = cells; left != 0; left &= left - 1U) {
+        const int bit = std::countr_zero(left);
+        typename Cell::State& state = states(bit);
+        policy.pass(state, beam.constants, residual_m(CellBits::cell_of(tile, bit), beam.range_m), stamp);
+        ignoring |= static_cast<Word>(policy.ignores_passes(state)) << bit;
+        blocking |= static_cast<Word>(Cell::log_odds(state) > blocked_above) << bit;
+      }
+      heeding[place] &= ~ignoring;
+      blocked[place] = (blocked[place] & ~cells) | blocking;
     }
   }
 
  private:
+  struct NoWalk {
+    NoWalk(const Point<Dim>&, const Point<Dim>&, bool) {}
+  };
+  using Walk = std::conditional_t<Dim == 2, SegmentWalk, NoWalk>;
+
   struct Beam {
-    Point<Dim> end_m;
+    Point<Dim> end;  // in lattice coordinates
     double range_m;  // as measured
     bool is_hit;
     typename Cell::Beam constants;
+    Walk walk;
   };
 
-  Point<Dim> origin_m_ = Point<Dim>::Zero();
+  [[nodiscard]] static Index<Dim> floor_of(const Point<Dim>& at) {
+    Index<Dim> index;
+    for (int axis = 0; axis < Dim; ++axis) index[axis] = detail::floor_to_int(at[axis]);
+    return index;
+  }
+
+  /// A range less the distance to the centre of a cell.
+  [[nodiscard]] float residual_m(const Index<Dim>& index, double range_m) const {
+    float squared = 0.0F;
+    for (int axis = 0; axis < Dim; ++axis) {
+      const auto way = static_cast<float>(index[axis] + 0.5 - origin_[axis]);
+      squared += way * way;
+    }
+    return static_cast<float>(range_m) - resolution_m_ * std::sqrt(squared);
+  }
+
+  Point<Dim> origin_ = Point<Dim>::Zero();  // in lattice coordinates
+  float resolution_m_ = 0.0F;
   double push_m_ = 0.0;
   std::vector<Beam> beams_;
+  // Scratch of a plane's write.
+  struct Possible {
+    std::uint32_t beam;
+    int column;
+  };
+  std::vector<Possible> possible_;
+  struct Met {
+    SegmentWalk::TileCells cells;
+    std::uint32_t beam;
+  };
+  std::vector<Met> met_;
   ScanReport report_;
 };
 

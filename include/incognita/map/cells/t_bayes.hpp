@@ -56,7 +56,7 @@ class TBayes {
   struct Beam {
     float occupied_offset, occupied_half_precision;
     float unoccupied_offset, unoccupied_half_precision;
-    float erosion_residual_m;
+    float erosion_residual2_m2;  // squared
   };
 
   TBayes() : TBayes(Params{}) {}
@@ -74,6 +74,8 @@ class TBayes {
     require_non_negative("TBayes", "erosion_log_odds", static_cast<double>(params.erosion_log_odds));
     require_non_negative("TBayes", "erosion_residual_m", params.erosion_residual_m);
     require_non_negative("TBayes", "erosion_residual_sigmas", params.erosion_residual_sigmas);
+    erosion_residual2_m2_ = params.erosion_residual_m * params.erosion_residual_m;
+    erosion_sigmas2_ = params.erosion_residual_sigmas * params.erosion_residual_sigmas;
     per_hit_ = 1.0F / static_cast<float>(params.hits_max);
   }
 
@@ -83,12 +85,12 @@ class TBayes {
     const double occupied_m2 = variance_m2 + params_.dvl.occupied_m2;
     const double unoccupied_m2 = variance_m2 + params_.dvl.unoccupied_m2;
     constexpr double two_pi = 2.0 * std::numbers::pi;
+    const double half_per_both = 0.5 / (occupied_m2 * unoccupied_m2);  // one division for two
     return {static_cast<float>(-0.5 * fast_log(two_pi * occupied_m2)),
-            static_cast<float>(0.5 / occupied_m2),
+            static_cast<float>(half_per_both * unoccupied_m2),
             static_cast<float>(-0.5 * fast_log(two_pi * unoccupied_m2)),
-            static_cast<float>(0.5 / unoccupied_m2),
-            static_cast<float>(std::max(params_.erosion_residual_m,
-                                        params_.erosion_residual_sigmas * std::sqrt(variance_m2)))};
+            static_cast<float>(half_per_both * occupied_m2),
+            static_cast<float>(std::max(erosion_residual2_m2_, erosion_sigmas2_ * variance_m2))};
   }
 
   /// (15) for the cell a beam ends in. The count is raised first, as Algorithm 1 does.
@@ -100,15 +102,19 @@ class TBayes {
 
   /// (15) for a cell a beam passes.
   void pass(State& state, const Beam& beam, float residual_m, ScanStamp stamp) const {
+    const float change = increment(state, beam, residual_m);
     if (params_.rule == Rule::literal) {
-      add(state, increment(state, beam, residual_m));
-    } else if (state.hits < params_.hits_max) {
-      add(state, std::min(0.0F, increment(state, beam, residual_m)));
-    } else if (state.settled_by != stamp && residual_m > beam.erosion_residual_m) {
-      state.settled_by = stamp;
-      add(state, -params_.erosion_log_odds);
-      if (state.log_odds < 0.0F) state.hits = 0;
+      add(state, change);
+      return;
     }
+    // Selected rather than branched on: what a cell is cannot be foreseen, and the next one waits.
+    const bool is_saturated = state.hits == params_.hits_max;
+    const bool erodes = is_saturated & (state.settled_by != stamp) & (residual_m > 0.0F) &
+                        (residual_m * residual_m > beam.erosion_residual2_m2);
+    const float eroded = erodes ? -params_.erosion_log_odds : 0.0F;
+    add(state, is_saturated ? eroded : std::min(0.0F, change));
+    state.settled_by = erodes ? stamp : state.settled_by;
+    state.hits = erodes & (state.log_odds < 0.0F) ? std::uint8_t{0} : state.hits;
   }
 
   /// Free beyond doubt, and not saturated with hits.
@@ -134,6 +140,8 @@ class TBayes {
 
   Params params_;
   float per_hit_ = 0.0F;
+  double erosion_residual2_m2_ = 0.0;
+  double erosion_sigmas2_ = 0.0;
 };
 
 static_assert(CellPolicy<TBayes>);

@@ -1,0 +1,40 @@
+/// What a map of the plane knows of its cells in one bit each, kept up to date with every cell that is written.
+#pragma once
+
+#include <vector>
+
+#include "incognita/grid/cell_bits.hpp"
+
+namespace incognita {
+
+/// Bits over the cells of a map. All layers have the same tiles, so the offset of a tile's word in one is its offset in all.
+struct CellLayers {
+  explicit CellLayers(const Lattice<2>& lattice)
+      : heeding(lattice, true), blocked(lattice, false), changed(lattice, false) {}
+
+  CellBits heeding;                     ///< a pass may change the cell; most cells of most scans ignore passes
+  CellBits blocked;                     ///< predicted rays end here
+  CellBits changed;                     ///< written since changes were last forgotten
+  std::vector<Index<2>> changed_tiles;  ///< the tiles with a cell in `changed`, in the order of their first change
+
+  /// Makes room for the cells of a box.
+  void grow_to_include(const IndexBox<2>& cells) {
+    for (CellBits* layer : {&heeding, &blocked, &changed}) layer->grow_to_include(cells);
+  }
+
+  /// Marks cells of a tile as changed; returns those that were not.
+  CellBits::Word mark_changed(Offset place, const Index<2>& tile, CellBits::Word cells) {
+    CellBits::Word& word = changed.tiles()[place];
+    if (word == 0) changed_tiles.push_back(tile);
+    const CellBits::Word fresh = cells & ~word;
+    word |= cells;
+    return fresh;
+  }
+
+  void forget_changes() {
+    for (const Index<2>& tile : changed_tiles) changed.tiles()[changed.tiles().offset_of(tile)] = 0;
+    changed_tiles.clear();
+  }
+};
+
+}  // namespace incognita
