@@ -18,6 +18,7 @@
 #include "incognita/exploration/set_aside.hpp"
 #include "incognita/exploration/stop_reason.hpp"
 #include "incognita/frontier/frontier.hpp"
+#include "incognita/frontier/frontier_layer.hpp"
 #include "incognita/grid/distance_transform.hpp"
 #include "incognita/grid/traversal.hpp"
 #include "incognita/planning/collision_guard.hpp"
@@ -106,9 +107,12 @@ class Explorer {
       : params_(params),
         slam_(std::move(filter), std::move(map)),
         entropy_(entropy),
+        occupancy_(slam_.map().lattice(), params.thresholds),
+        frontier_(slam_.map().lattice(), params.frontier),
         set_aside_(params.set_aside),
         reached_(slam_.map().grid().box()) {
     params_.validate();
+    rebuild_layers();
   }
 
   /// The robot has moved by `increment`, in its own frame, within duration_s. Throws std::invalid_argument unless the
@@ -126,7 +130,13 @@ class Explorer {
     if (!correction_.lost) found_s_ = time_s_;
     if (correction_.relocated) start_anew();
     if (!correction_.trusted) return report.scan;
-    if (report.is_redrawn) retrace();
+    if (report.is_redrawn) {
+      rebuild_layers();
+      retrace();
+    } else {
+      occupancy_.follow(map());
+      frontier_.follow(occupancy_);
+    }
     reached_ = enclosing_box(reached_, cells_in_reach(map().lattice(), scan, belief().pose, map().hit_push_m()));
     extend_trail(belief().pose.position());
     return report.scan;
@@ -182,12 +192,19 @@ class Explorer {
   [[nodiscard]] const Filter& filter() const { return slam_.filter(); }
   [[nodiscard]] const PoseBelief& belief() const { return slam_.belief(); }
   [[nodiscard]] const CorrectionReport& correction() const { return correction_; }  ///< of the last scan
+  /// What is free, occupied and unknown in the map, with the explorer's thresholds.
+  [[nodiscard]] const OccupancyLayer& occupancy() const { return occupancy_; }
   [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }
   [[nodiscard]] const ExplorerParams& params() const { return params_; }
   [[nodiscard]] double time_s() const { return time_s_; }
 
  private:
   using Cell = typename MapType::CellType;
+
+  void rebuild_layers() {
+    occupancy_.rebuild(map());
+    frontier_.rebuild(occupancy_);
+  }
 
   void extend_trail(const Eigen::Vector2d& to) {
     const Eigen::Vector2d from = trail_.empty() ? to : map().lattice().center_m(trail_.back());
@@ -252,10 +269,10 @@ class Explorer {
 
   bool choose() {
     reserve_reach();
-    const OccupancyGrid<2> occupancy = classify(map(), params_.thresholds);
+    const OccupancyGrid<2>& occupancy = occupancy_.grid();
     if (failed_) set_aside_.add(*failed_, occupancy);
     failed_.reset();
-    const std::vector<Frontier<2>> frontiers = find_frontiers(occupancy, params_.frontier);
+    const std::vector<Frontier<2>> frontiers = cluster_frontier(map().lattice(), frontier_.cells(), params_.frontier);
     if (frontiers.empty()) return stop(StopReason::complete);
 
     std::vector<Candidate> reachable = find_candidates(occupancy, frontiers);
@@ -329,6 +346,8 @@ class Explorer {
   ExplorerParams params_;
   Slam<MapType, Filter> slam_;
   EntropyTable entropy_;
+  OccupancyLayer occupancy_;
+  FrontierLayer frontier_;
   SetAsidePlaces set_aside_;
   CorrectionReport correction_;
   Decision decision_;

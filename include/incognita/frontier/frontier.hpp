@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -76,62 +76,69 @@ template <int Dim>
   return slabs;
 }
 
-/// Groups cells of a box by contact. Keeps its scratch from one call to the next.
+/// The groups of cells that touch, corners included. `cells` in storage order and each once; each group keeps their order, and
+/// so do the first cells of the groups. O(n), whatever lies between the cells: for each way to a neighbour, the cells and their
+/// neighbours are in the same order, so one pass over both finds those that are cells too.
 template <int Dim>
-class CellGrouping {
- public:
-  CellGrouping(const Lattice<Dim>& lattice, const IndexBox<Dim>& box)
-      : place_(lattice, box, none), flood_(place_, Adjacency::corners) {}
-
-  /// The groups of cells that touch, corners included; each keeps the order of `cells`, and so do their first
-  /// cells.
-  [[nodiscard]] std::vector<std::vector<Index<Dim>>> touching(const std::vector<Index<Dim>>& cells) {
-    for (std::size_t i = 0; i < cells.size(); ++i) place_.set(cells[i], static_cast<std::int32_t>(i));
-    std::vector<std::vector<Index<Dim>>> groups;
-    for (const Index<Dim>& seed : cells) {
-      members_.clear();
-      flood_(seed, [&](Offset offset) {
-        if (place_[offset] == none) return false;
-        members_.push_back(place_[offset]);
-        place_[offset] = none;
-        return true;
-      });
-      if (members_.empty()) continue;
-      std::sort(members_.begin(), members_.end());
-      auto& group = groups.emplace_back();
-      group.reserve(members_.size());
-      for (const std::int32_t member : members_) group.push_back(cells[static_cast<std::size_t>(member)]);
-    }
-    return groups;
-  }
-
-  /// Appends `group`, cut into touching parts of which none is longer than length_max_cells, to `frontiers`.
-  void split(std::vector<Index<Dim>> group, double length_max_cells, std::vector<Frontier<Dim>>& frontiers) {
-    const auto slabs = slabs_along_principal_axis<Dim>(group, length_max_cells);
-    if (slabs.size() == 1) {
-      frontiers.push_back(make_frontier<Dim>(place_.lattice(), std::move(group)));
-      return;
-    }
-    // A bent group falls into pieces, which may be long in another direction.
-    for (const auto& slab : slabs) {
-      for (auto& piece : touching(slab)) split(std::move(piece), length_max_cells, frontiers);
+[[nodiscard]] std::vector<std::vector<Index<Dim>>> touching_groups(const std::vector<Index<Dim>>& cells) {
+  const auto before = [](const Index<Dim>& a, const Index<Dim>& b) {
+    int axis = Dim - 1;
+    while (axis > 0 && a[axis] == b[axis]) --axis;
+    return a[axis] < b[axis];
+  };
+  // Each cell points to an earlier one of its group, the first to itself.
+  std::vector<std::size_t> earlier(cells.size());
+  std::iota(earlier.begin(), earlier.end(), std::size_t{0});
+  const auto first_of = [&](std::size_t cell) {
+    while (earlier[cell] != cell) cell = earlier[cell] = earlier[earlier[cell]];
+    return cell;
+  };
+  for (const Index<Dim>& step : neighbor_steps<Dim>(Adjacency::corners)) {
+    if (!before(Index<Dim>::Zero(), step)) continue;  // the way back
+    std::size_t other = 0;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      const Index<Dim> neighbor = cells[cell] + step;
+      while (other < cells.size() && before(cells[other], neighbor)) ++other;
+      if (other == cells.size()) break;
+      if (!equal(cells[other], neighbor)) continue;
+      const auto [first, last] = std::minmax({first_of(cell), first_of(other)});
+      earlier[last] = first;
     }
   }
+  std::vector<std::vector<Index<Dim>>> groups;
+  std::vector<std::size_t> group_of(cells.size());
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const std::size_t first = first_of(cell);
+    if (first == cell) {
+      group_of[cell] = groups.size();
+      groups.emplace_back();
+    }
+    groups[group_of[first]].push_back(cells[cell]);
+  }
+  return groups;
+}
 
- private:
-  static constexpr std::int32_t none = -1;
-  Grid<std::int32_t, Dim> place_;  ///< in the list of cells to be grouped, until grouped
-  Flood<Dim> flood_;
-  std::vector<std::int32_t> members_;
-};
+/// Appends `group`, cut into touching parts of which none is longer than length_max_cells, to `frontiers`.
+template <int Dim>
+void split_group(const Lattice<Dim>& lattice, std::vector<Index<Dim>> group, double length_max_cells,
+                 std::vector<Frontier<Dim>>& frontiers) {
+  const auto slabs = slabs_along_principal_axis<Dim>(group, length_max_cells);
+  if (slabs.size() == 1) {
+    frontiers.push_back(make_frontier<Dim>(lattice, std::move(group)));
+    return;
+  }
+  // A bent group falls into pieces, which may be long in another direction.
+  for (const auto& slab : slabs) {
+    for (auto& piece : touching_groups<Dim>(slab)) split_group<Dim>(lattice, std::move(piece), length_max_cells, frontiers);
+  }
+}
 
 }  // namespace detail
 
 /// Groups frontier cells that touch, corners included; drops small groups, and splits long ones along their
 /// principal axis into parts that touch in themselves (see FrontierParams). `cells` in storage order and each
 /// once, as detect_frontier returns them. The groups follow the storage order of their first cells, the parts
-/// of a split one its principal axis. Throws std::invalid_argument for bad parameters. O(cells of the box
-/// around them).
+/// of a split one its principal axis. Throws std::invalid_argument for bad parameters. O(cells).
 template <int Dim>
 [[nodiscard]] std::vector<Frontier<Dim>> cluster_frontier(const Lattice<Dim>& lattice,
                                                           const std::vector<Index<Dim>>& cells,
@@ -139,17 +146,11 @@ template <int Dim>
   params.validate();
   std::vector<Frontier<Dim>> frontiers;
   if (cells.empty()) return frontiers;
-  IndexBox<Dim> box{cells.front(), cells.front()};
-  for (const Index<Dim>& cell : cells) {
-    box.lower = box.lower.cwiseMin(cell);
-    box.upper = box.upper.cwiseMax((cell.array() + 1).matrix());
-  }
-  detail::CellGrouping<Dim> grouping(lattice, box);
   const double length_min_cells = params.length_min_m / lattice.resolution_m() - 1e-9;
   const double length_max_cells = std::max(1.0, params.length_max_m / lattice.resolution_m());
-  for (auto& group : grouping.touching(cells)) {
+  for (auto& group : detail::touching_groups<Dim>(cells)) {
     if (static_cast<double>(group.size()) < length_min_cells) continue;
-    grouping.split(std::move(group), length_max_cells, frontiers);
+    detail::split_group<Dim>(lattice, std::move(group), length_max_cells, frontiers);
   }
   return frontiers;
 }

@@ -1,8 +1,8 @@
 /// One bit for each cell of a plane.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "incognita/grid/grid.hpp"
 
@@ -56,5 +56,27 @@ class CellBits {
  private:
   Grid<Word, 2> tiles_;
 };
+
+/// The cells of a tile that lie in a box.
+[[nodiscard]] inline CellBits::Word cells_of_tile(const Index<2>& tile, const IndexBox<2>& box) {
+  constexpr int last = CellBits::tile_side - 1;
+  const auto first_in = [&](int axis) { return std::max(box.lower[axis] - tile[axis] * CellBits::tile_side, 0); };
+  const auto last_in = [&](int axis) { return std::min(box.upper[axis] - 1 - tile[axis] * CellBits::tile_side, last); };
+  if (first_in(0) > last_in(0) || first_in(1) > last_in(1)) return 0;
+  constexpr CellBits::Word all = ~CellBits::Word{0};
+  const CellBits::Word row = (0xFFU << first_in(0)) & (0xFFU >> (last - last_in(0)));
+  return (row * 0x0101010101010101ULL) & (all << (8 * first_in(1))) & (all >> (8 * (last - last_in(1))));
+}
+
+/// Calls visit(tile) for each tile with cells of a box.
+template <class Visit>
+void for_each_tile_of(const IndexBox<2>& box, Visit&& visit) {
+  if (box.empty()) return;
+  const Index<2> first = CellBits::tile_of(box.lower);
+  const Index<2> last = CellBits::tile_of({box.upper[0] - 1, box.upper[1] - 1});
+  for (int y = first[1]; y <= last[1]; ++y) {
+    for (int x = first[0]; x <= last[0]; ++x) visit(Index<2>(x, y));
+  }
+}
 
 }  // namespace incognita

@@ -87,9 +87,14 @@ class Grid {
     if (box_.contains(needed)) return false;
     IndexBox<Dim> grown = enclosing_box(box_, needed);
     if (const IndexBox<Dim> roomy = with_margins(grown); cell_count(roomy) <= cell_count_max) grown = roomy;
-    Grid larger(lattice_, grown, fill_);
-    if (!box_.empty()) copy_rows_to(larger);
-    *this = std::move(larger);
+    move_to(grown);
+    return true;
+  }
+
+  /// As grow_to_include, but moves no side further than is needed: for a grid that follows another one's growth.
+  bool grow_just_to_include(const IndexBox<Dim>& needed) {
+    if (box_.contains(needed)) return false;
+    move_to(enclosing_box(box_, needed));
     return true;
   }
 
@@ -132,6 +137,13 @@ class Grid {
       }
     }
     return grown;
+  }
+
+  /// The same cells in a box that holds the present one.
+  void move_to(const IndexBox<Dim>& box) {
+    Grid larger(lattice_, box, fill_);
+    if (!box_.empty()) copy_rows_to(larger);
+    *this = std::move(larger);
   }
 
   void resize(const IndexBox<Dim>& box) {
