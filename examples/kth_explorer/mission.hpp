@@ -10,6 +10,7 @@
 #include "incognita/exploration/explorer.hpp"
 #include "incognita/entropy/shannon.hpp"
 #include "incognita/io/tum.hpp"
+#include "incognita/map/entropy_layer.hpp"
 #include "incognita/metrics/coverage.hpp"
 #include "incognita/metrics/map_error.hpp"
 #include "incognita/metrics/nees.hpp"
@@ -38,7 +39,7 @@ struct DecisionRecord {
 struct ProgressRecord {
   double time_s;
   double explored_fraction;
-  double entropy_drop_nats;  ///< Shannon entropy of the map at the start minus now
+  double entropy_drop_nats;  ///< Shannon entropy of a map of which nothing is known minus that of the map now
   double position_error_m;
   double three_sigma_m;
   double nees;
@@ -79,15 +80,10 @@ template <class Explorer>
                           T_start_world, explorer.map().lattice());
   const EntropyTable shannon{Shannon{}};
   const auto is_known = [&](const Index<2>& cell) {
-    return explorer.params().thresholds.classify(explorer.map().log_odds(cell)) != Occupancy::unknown;
+    return explorer.occupancy().grid().value(cell) != Occupancy::unknown;
   };
-  const auto entropy_drop_nats = [&] {
-    double drop_nats = 0.0;
-    for (Offset cell = 0; cell < static_cast<Offset>(explorer.map().grid().size()); ++cell) {
-      drop_nats += shannon(0.0F) - shannon(explorer.map().log_odds(cell));
-    }
-    return drop_nats;
-  };
+  EntropyLayer information(explorer.map().lattice(), EntropyTable(Shannon{}));
+  information.rebuild(explorer.map());
 
   MissionRecord record;
   const auto progress = [&] {
@@ -95,7 +91,7 @@ template <class Explorer>
     const Pose2 truth = simulator.T_start_robot();
     return ProgressRecord{simulator.time_s(),
                           coverage.explored_fraction(is_known),
-                          entropy_drop_nats(),
+                          information.information_nats(),
                           (belief.pose.position() - truth.position()).norm(),
                           3.0 * position_sigma_m(belief.covariance),
                           position_nees(belief.pose, truth, belief.covariance),
@@ -103,6 +99,11 @@ template <class Explorer>
   };
   const auto observe_and_decide = [&] {
     explorer.observe(simulator.scan());
+    if (explorer.last_scan().is_redrawn) {
+      information.rebuild(explorer.map());
+    } else if (explorer.correction().trusted) {
+      information.follow(explorer.map());
+    }
     ++record.scans;
     const Clock::time_point start = Clock::now();
     if (!explorer.decide()) return;
@@ -157,7 +158,7 @@ template <class Explorer>
       explorer.map(), truly_occupied_cells(simulator.world().plan(), T_start_world, explorer.map().lattice()));
   record.map_error = error.value();
   record.touched_cells = error.occupied_count() + error.free_count();
-  const OccupancyGrid<2> occupancy = classify(explorer.map(), explorer.params().thresholds);
+  const OccupancyGrid<2>& occupancy = explorer.occupancy().grid();
   for (const Frontier<2>& frontier : find_frontiers(occupancy, explorer.params().frontier)) {
     std::vector<Eigen::Vector2d>& cells_m = record.last_frontiers.emplace_back();
     for (const Index<2>& cell : frontier.cells) cells_m.push_back(occupancy.lattice().center_m(cell));

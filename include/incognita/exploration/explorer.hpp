@@ -109,6 +109,8 @@ class Explorer {
         entropy_(entropy),
         occupancy_(slam_.map().lattice(), params.thresholds),
         frontier_(slam_.map().lattice(), params.frontier),
+        clearance_m_(slam_.map().lattice(), {}, std::numeric_limits<float>::infinity()),
+        travel_costs_(slam_.map().lattice()),
         set_aside_(params.set_aside),
         reached_(slam_.map().grid().box()) {
     params_.validate();
@@ -125,12 +127,11 @@ class Explorer {
   /// A scan was taken: corrects the pose by the map, then the map by the scan, see Slam::observe; correction() says what came
   /// of it.
   ScanReport observe(const Scan<2>& scan) {
-    const SlamReport report = slam_.observe(scan);
-    correction_ = report.correction;
-    if (!correction_.lost) found_s_ = time_s_;
-    if (correction_.relocated) start_anew();
-    if (!correction_.trusted) return report.scan;
-    if (report.is_redrawn) {
+    last_scan_ = slam_.observe(scan);
+    if (!correction().lost) found_s_ = time_s_;
+    if (correction().relocated) start_anew();
+    if (!correction().trusted) return last_scan_.scan;
+    if (last_scan_.is_redrawn) {
       rebuild_layers();
       retrace();
     } else {
@@ -139,7 +140,7 @@ class Explorer {
     }
     reached_ = enclosing_box(reached_, cells_in_reach(map().lattice(), scan, belief().pose, map().hit_push_m()));
     extend_trail(belief().pose.position());
-    return report.scan;
+    return last_scan_.scan;
   }
 
   /// Decides where to go if there is reason to; cheap when there is none. Returns whether it was decided anew.
@@ -147,7 +148,7 @@ class Explorer {
     if (decision_.stopped) return false;
     if (position_sigma_m(belief().covariance) > params_.position_sigma_max_m) return stop(StopReason::lost);
     if (time_s_ - found_s_ > params_.lost_max_s) return stop(StopReason::lost);
-    if (!correction_.trusted) return false;
+    if (!correction().trusted) return false;
     if (time_s_ >= params_.duration_max_s) return stop(StopReason::out_of_time);
     if (trail_.empty() || !filter().is_ready()) return false;
     if (decision_.chosen() != nullptr && !goal_is_done()) return false;
@@ -156,7 +157,7 @@ class Explorer {
 
   /// The speeds that follow the chosen path, slowed down before what `scan`, the latest, shows. Zero without a goal.
   [[nodiscard]] Twist2 command(const Scan<2>& scan) {
-    if (decision_.chosen() == nullptr || correction_.lost) return {};
+    if (decision_.chosen() == nullptr || correction().lost) return {};
     const Pose2& pose = belief().pose;
     if (retreat_) {
       if (!retreat_->is_over(pose)) return retreat_->command(pose, scan);
@@ -191,7 +192,8 @@ class Explorer {
   [[nodiscard]] const MapType& map() const { return slam_.map(); }
   [[nodiscard]] const Filter& filter() const { return slam_.filter(); }
   [[nodiscard]] const PoseBelief& belief() const { return slam_.belief(); }
-  [[nodiscard]] const CorrectionReport& correction() const { return correction_; }  ///< of the last scan
+  [[nodiscard]] const SlamReport& last_scan() const { return last_scan_; }  ///< what became of it
+  [[nodiscard]] const CorrectionReport& correction() const { return last_scan_.correction; }
   /// What is free, occupied and unknown in the map, with the explorer's thresholds.
   [[nodiscard]] const OccupancyLayer& occupancy() const { return occupancy_; }
   [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }
@@ -275,10 +277,10 @@ class Explorer {
     const std::vector<Frontier<2>> frontiers = cluster_frontier(map().lattice(), frontier_.cells(), params_.frontier);
     if (frontiers.empty()) return stop(StopReason::complete);
 
-    std::vector<Candidate> reachable = find_candidates(occupancy, frontiers);
+    std::vector<Reachable> reachable = find_reachable(occupancy, frontiers);
     if (reachable.empty()) return stop(StopReason::nothing_reachable);
-    std::erase_if(reachable, [&](const Candidate& c) { return set_aside_.contains(c.frontier_m, occupancy); });
-    std::vector<Candidate> candidates = first_informative(std::move(reachable));
+    std::erase_if(reachable, [&](const Reachable& r) { return set_aside_.contains(frontier_m(r), occupancy); });
+    std::vector<Candidate> candidates = first_informative(reachable, occupancy);
     if (candidates.empty()) return stop(StopReason::nothing_informative);
     for (Candidate& candidate : candidates) candidate.utility = utility(candidate);
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -296,41 +298,56 @@ class Explorer {
     slam_.reserve(reached_m.padded(params_.gain.range_max_m + margin_m));
   }
 
-  /// A candidate for each frontier that can be seen from a reachable place, cheapest to reach first.
-  [[nodiscard]] std::vector<Candidate> find_candidates(const OccupancyGrid<2>& occupancy,
-                                                       const std::vector<Frontier<2>>& frontiers) const {
-    Grid<float, 2> clearance_m =
-        distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; });
+  /// A frontier that can be seen from a place that can be reached.
+  struct Reachable {
+    const Frontier<2>* frontier;
+    Index<2> viewpoint;
+    float cost_m;
+  };
+
+  [[nodiscard]] Eigen::Vector2d frontier_m(const Reachable& reachable) const {
+    return map().lattice().center_m(reachable.frontier->representative);
+  }
+
+  /// Those of the frontiers, cheapest to reach first; travel_costs_ then has the ways there.
+  [[nodiscard]] std::vector<Reachable> find_reachable(const OccupancyGrid<2>& occupancy,
+                                                      const std::vector<Frontier<2>>& frontiers) {
+    distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; }, clearance_m_);
     // Where the robot has been its body fits, however tight the belief draws the place: no door closes behind it.
     for (const Index<2>& cell : trail_) {
-      float& clearance = clearance_m[clearance_m.offset_of(cell)];
+      if (!clearance_m_.contains(cell)) continue;
+      float& clearance = clearance_m_[clearance_m_.offset_of(cell)];
       clearance = std::max(clearance, static_cast<float>(params_.travel.clearance_hard_m()));
     }
-    const TravelCostField field(occupancy, clearance_m, belief().pose.position(), params_.travel);
-    std::vector<std::pair<double, Candidate>> found;
+    travel_costs_.restart(occupancy, clearance_m_, belief().pose.position(), params_.travel);
+    std::vector<Reachable> found;
     for (const Frontier<2>& frontier : frontiers) {
-      const auto viewpoint = find_viewpoint(occupancy, field, frontier.representative, params_.viewpoint_radius_m);
-      if (!viewpoint) continue;
-      Candidate candidate;
-      candidate.frontier_m = occupancy.lattice().center_m(frontier.representative);
-      candidate.sought = unknown_beside(occupancy, frontier);
-      candidate.path = Polyline(shorten_path(field, find_path(field, *viewpoint)));
-      found.emplace_back(static_cast<double>(field.cost_m(*viewpoint)), std::move(candidate));
+      const auto viewpoint =
+          find_viewpoint(occupancy, travel_costs_, frontier.representative, params_.viewpoint_radius_m);
+      if (viewpoint) found.push_back({&frontier, *viewpoint, travel_costs_.cost_m(*viewpoint)});
     }
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<Candidate> candidates;
-    for (auto& [cost_m, candidate] : found) candidates.push_back(std::move(candidate));
-    return candidates;
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Reachable& a, const Reachable& b) { return a.cost_m < b.cost_m; });
+    return found;
+  }
+
+  [[nodiscard]] Candidate candidate_for(const Reachable& reachable, const OccupancyGrid<2>& occupancy) const {
+    Candidate candidate;
+    candidate.frontier_m = frontier_m(reachable);
+    candidate.sought = unknown_beside(occupancy, *reachable.frontier);
+    candidate.path = Polyline(shorten_path(travel_costs_, find_path(travel_costs_, reachable.viewpoint)));
+    return candidate;
   }
 
   /// The informative ones of the first candidates_max; when there are none, of the next, and so on.
-  [[nodiscard]] std::vector<Candidate> first_informative(std::vector<Candidate> reachable) {
+  [[nodiscard]] std::vector<Candidate> first_informative(const std::vector<Reachable>& reachable,
+                                                         const OccupancyGrid<2>& occupancy) {
     const double gain_min_nats = params_.gain_min_cells * entropy_(0.0F);
     std::vector<Candidate> informative;
     std::size_t next = 0;
     while (informative.empty() && next < reachable.size()) {
       const std::size_t end = std::min(reachable.size(), next + static_cast<std::size_t>(params_.candidates_max));
-      for (; next < end; ++next) informative.push_back(std::move(reachable[next]));
+      for (; next < end; ++next) informative.push_back(candidate_for(reachable[next], occupancy));
       evaluate_candidates(map(), entropy_, filter(), informative, params_.gain, params_.threads, workspaces_);
       std::erase_if(informative, [&](const Candidate& c) { return c.gain_nats < gain_min_nats; });
     }
@@ -348,8 +365,10 @@ class Explorer {
   EntropyTable entropy_;
   OccupancyLayer occupancy_;
   FrontierLayer frontier_;
+  Grid<float, 2> clearance_m_;    // scratch of a decision, as the next
+  TravelCostField travel_costs_;
   SetAsidePlaces set_aside_;
-  CorrectionReport correction_;
+  SlamReport last_scan_;
   Decision decision_;
   PathFollower follower_;
   IndexBox<2> reached_;  // the cells that scans have reached, those of the map given at the start included

@@ -62,16 +62,16 @@ inline void take_lower_envelope(std::vector<float>& heights, std::vector<Envelop
 
 }  // namespace detail
 
-/// The distance in metres from the centre of each cell of `grid` to the centre of the nearest cell for which
-/// is_source(value) holds: 0 on a source, infinity when there is none. Cells outside of the grid's box are no
-/// sources; the result has the grid's lattice and box, and infinity as its fill value. Exact up to the
-/// rounding of a float. O(cells), whatever the distances. Felzenszwalb and Huttenlocher, Distance Transforms
-/// of Sampled Functions (2012).
+/// Writes the distance in metres from the centre of each cell of `grid` to the centre of the nearest cell for which
+/// is_source(value) holds into `result`, which takes the grid's box: 0 on a source, infinity when there is none. Cells outside of
+/// the grid's box are no sources. `result` has the grid's lattice and infinity as its fill value; its storage is used again. Exact
+/// up to the rounding of a float. O(cells), whatever the distances. Felzenszwalb and Huttenlocher, Distance Transforms of
+/// Sampled Functions (2012).
 template <class Value, int Dim, class IsSource>
-[[nodiscard]] Grid<float, Dim> distance_transform_m(const Grid<Value, Dim>& grid, IsSource&& is_source) {
+void distance_transform_m(const Grid<Value, Dim>& grid, IsSource&& is_source, Grid<float, Dim>& result) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
-  Grid<float, Dim> result(grid.lattice(), grid.box(), infinite);
-  if (grid.size() == 0) return result;
+  result.clear_to(grid.box());
+  if (grid.size() == 0) return;
 
   // Along the last axis distances are counted, a whole layer (in the plane: a row) at a time.
   const Value* const values = grid.values().data();
@@ -103,6 +103,13 @@ template <class Value, int Dim, class IsSource>
   }
   const float resolution_m = static_cast<float>(grid.resolution_m());
   for (Offset i = 0; i < size; ++i) distances[i] = resolution_m * std::sqrt(distances[i]);
+}
+
+/// The same in a grid of its own.
+template <class Value, int Dim, class IsSource>
+[[nodiscard]] Grid<float, Dim> distance_transform_m(const Grid<Value, Dim>& grid, IsSource&& is_source) {
+  Grid<float, Dim> result(grid.lattice(), {}, std::numeric_limits<float>::infinity());
+  distance_transform_m(grid, is_source, result);
   return result;
 }
 

@@ -33,8 +33,7 @@ class Grid {
   /// Cells of `box`, each `fill`. Throws std::length_error above cell_count_max.
   explicit Grid(const Lattice<Dim>& lattice, const IndexBox<Dim>& box = {}, Value fill = Value{})
       : lattice_(lattice), fill_(fill) {
-    resize(box);
-    values_.assign(static_cast<std::size_t>(checked_count(box)), fill_);
+    clear_to(box);
   }
 
   [[nodiscard]] const Lattice<Dim>& lattice() const { return lattice_; }
@@ -79,6 +78,13 @@ class Grid {
 
   [[nodiscard]] const std::vector<Value>& values() const { return values_; }
   [[nodiscard]] std::vector<Value>& values() { return values_; }
+
+  /// Makes the grid one of `box`, each cell the fill value, in the storage that it has if that is enough. Throws
+  /// std::length_error above cell_count_max.
+  void clear_to(const IndexBox<Dim>& box) {
+    resize(box);
+    values_.assign(static_cast<std::size_t>(checked_count(box)), fill_);
+  }
 
   /// Makes room for `needed`; new cells hold the fill value. A side that must move moves by at least half of the
   /// grid's extent, so a robot that leaves it step by step costs amortised O(1) per new cell. Returns whether the

@@ -11,7 +11,8 @@
 
 namespace incognita {
 
-/// The same as classify(map), kept up to date at the cost of the cells that change. Safe to read from many threads.
+/// The same as classify(map), kept up to date at the cost of the cells that change. Its box holds the tiles in which something is
+/// known, or was; all else is unknown. Safe to read from many threads.
 class OccupancyLayer {
  public:
   /// Of no cells yet. Throws std::invalid_argument for bad thresholds.
@@ -25,7 +26,6 @@ class OccupancyLayer {
   template <CellPolicy Cell>
   void follow(const Map<Cell, 2>& map) {
     changed_tiles_.clear();
-    make_room_for(map);
     for (const Index<2>& tile : map.layers().changed_tiles) {
       classify_tile(map, tile, map.layers().changed.tiles().value(tile));
     }
@@ -35,7 +35,6 @@ class OccupancyLayer {
   template <CellPolicy Cell>
   void rebuild(const Map<Cell, 2>& map) {
     *this = OccupancyLayer(map.lattice(), thresholds_);
-    make_room_for(map);
     const IndexBox<2>& box = map.grid().box();
     for_each_tile_of(box, [&](const Index<2>& tile) { classify_tile(map, tile, cells_of_tile(tile, box)); });
   }
@@ -49,13 +48,6 @@ class OccupancyLayer {
 
  private:
   template <class MapType>
-  void make_room_for(const MapType& map) {
-    grid_.grow_just_to_include(map.grid().box());
-    free_.grow_to_include(map.grid().box());
-    occupied_.grow_to_include(map.grid().box());
-  }
-
-  template <class MapType>
   void classify_tile(const MapType& map, const Index<2>& tile, CellBits::Word cells) {
     const auto states = map.states_of(tile);
     CellBits::Word free = 0;
@@ -66,6 +58,8 @@ class OccupancyLayer {
       free |= static_cast<CellBits::Word>(occupancy == Occupancy::free) << bit;
       occupied |= static_cast<CellBits::Word>(occupancy == Occupancy::occupied) << bit;
     }
+    if ((free | occupied) != 0) make_room_for(tile);
+    if (!free_.tiles().contains(tile)) return;
     const Offset place = free_.tiles().offset_of(tile);
     CellBits::Word& was_free = free_.tiles()[place];
     CellBits::Word& was_occupied = occupied_.tiles()[place];
@@ -79,6 +73,14 @@ class OccupancyLayer {
           (free & cell) != 0 ? Occupancy::free : (occupied & cell) != 0 ? Occupancy::occupied : Occupancy::unknown;
     }
     changed_tiles_.push_back(tile);
+  }
+
+  void make_room_for(const Index<2>& tile) {
+    IndexBox<2> cells = box_of_cell<2>(CellBits::cell_of(tile, 0));
+    for (int axis = 0; axis < 2; ++axis) cells.upper[axis] = cells.lower[axis] + CellBits::tile_side;
+    grid_.grow_just_to_include(cells);
+    free_.grow_to_include(cells);
+    occupied_.grow_to_include(cells);
   }
 
   OccupancyThresholds thresholds_;

@@ -53,18 +53,25 @@ struct TravelParams {
 /// reached. One field serves all goals. Safe to read from many threads at once.
 class TravelCostField {
  public:
-  /// `clearance_m` holds the distance from each cell's centre to the centre of the nearest occupied one, as
-  /// distance_transform_m returns it. Nothing can be reached from a start outside of the grid's box. Throws
-  /// std::invalid_argument for bad parameters, a start that is not finite, and grids with different boxes.
-  /// O(cells) to set up and O(reached cells) to search: a bucket queue (Dial 1969), exact because no step is
-  /// cheaper than a bucket is wide.
+  /// Reaches nothing.
+  explicit TravelCostField(const Lattice<2>& lattice)
+      : cost_per_m_(lattice, {}, infinite), cost_m_(lattice, {}, infinite), step_to_(lattice, {}, no_step) {}
+
+  /// See restart.
   TravelCostField(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m,
                   const Eigen::Vector2d& start_m, const TravelParams& params = {})
-      : start_m_(start_m),
-        proper_max_(static_cast<float>(1.0 + params.clearance_weight)),
-        cost_per_m_(occupancy.lattice(), occupancy.box().padded(1), infinite),
-        cost_m_(occupancy.lattice(), cost_per_m_.box(), infinite),
-        step_to_(occupancy.lattice(), cost_per_m_.box(), no_step) {
+      : TravelCostField(occupancy.lattice()) {
+    restart(occupancy, clearance_m, start_m, params);
+  }
+
+  /// Makes this the field of another start or belief on the same lattice; storage is used again.
+  /// `clearance_m` holds the distance from each cell's centre to the centre of the nearest occupied one, as
+  /// distance_transform_m returns it. Nothing can be reached from a start outside of the grid's box. Throws
+  /// std::invalid_argument for bad parameters, a start that is not finite, and grids with different boxes; the field is then
+  /// as it was. O(cells) to set up and O(reached cells) to search: a bucket queue (Dial 1969), exact because no step is
+  /// cheaper than a bucket is wide.
+  void restart(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m, const Eigen::Vector2d& start_m,
+               const TravelParams& params = {}) {
     params.validate();
     if (!std::isfinite(start_m[0]) || !std::isfinite(start_m[1]))
       throw std::invalid_argument("TravelCostField: start_m is not finite");
@@ -72,6 +79,11 @@ class TravelCostField {
       throw std::invalid_argument("TravelCostField: occupancy and clearance_m differ in their boxes");
     }
     const IndexBox<2>& box = occupancy.box();
+    start_m_ = start_m;
+    proper_max_ = static_cast<float>(1.0 + params.clearance_weight);
+    escape_.clear();
+    for (Grid<float, 2>* costs : {&cost_per_m_, &cost_m_}) costs->clear_to(box.padded(1));
+    step_to_.clear_to(box.padded(1));
     const Eigen::Vector2d start_cells = occupancy.lattice().to_cells(start_m);
     for (int axis = 0; axis < 2; ++axis) {
       if (!(box.lower[axis] <= start_cells[axis] && start_cells[axis] < box.upper[axis])) return;
@@ -209,9 +221,9 @@ class TravelCostField {
     }
   }
 
-  Eigen::Vector2d start_m_;
+  Eigen::Vector2d start_m_{0.0, 0.0};
   Index<2> start_{0, 0};
-  float proper_max_;  ///< no proper cell costs more a metre, every place to escape from does
+  float proper_max_ = 1.0F;  ///< no proper cell costs more a metre, every place to escape from does
   // One ring of cells larger than the belief: it is never entered, so no step needs to look whether it leaves the grid.
   Grid<float, 2> cost_per_m_;
   Grid<float, 2> cost_m_;
