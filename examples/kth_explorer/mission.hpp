@@ -82,11 +82,8 @@ template <class Explorer>
     return explorer.params().thresholds.classify(explorer.map().log_odds(cell)) != Occupancy::unknown;
   };
   const auto entropy_drop_nats = [&] {
-    double drop_nats = 0.0;
-    for (Offset cell = 0; cell < static_cast<Offset>(explorer.map().grid().size()); ++cell) {
-      drop_nats += shannon(0.0F) - shannon(explorer.map().log_odds(cell));
-    }
-    return drop_nats;
+    const auto cells = static_cast<double>(explorer.map().grid().size());
+    return cells * shannon.unknown_nats() - map_entropy_nats(explorer.map(), shannon);
   };
 
   MissionRecord record;
