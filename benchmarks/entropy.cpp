@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <string>
 #include <vector>

@@ -80,7 +80,8 @@ template <class CellRange, class LogOddsOf>
 /// (those beyond the table's end counting as the end), and exact for unknown cells. Cells are added in chunks of 512, and
 /// in a chunk lane by lane; so the bits depend on the log-odds in their order and on the vectors the program is compiled
 /// for, but neither on the kind of range nor on threads. Otherwise each value is the table's or the measure's own, added
-/// in the range's order. O(cells), no allocation; a processor of 2022 takes 0.3 ns a cell with AVX2, 0.4 without.
+/// in the range's order. O(cells), no allocation. A Zen 4 core takes 0.31 ns for a float in its cache with AVX2 or AVX-512,
+/// 0.45 without, and 0.37 and 0.5 for a cell of a map; maps larger than the caches wait for memory as well.
 template <class CellRange, class Entropy, class LogOddsOf = detail::ItselfAsLogOdds>
 [[nodiscard]] double entropy_sum(const CellRange& cells, const Entropy& entropy, const LogOddsOf& log_odds_of = {}) {
   if constexpr (std::same_as<Entropy, EntropyTable>) {
