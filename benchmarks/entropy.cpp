@@ -1,5 +1,6 @@
-/// The entropy of a whole map a cell: by a table and by the measure itself, over floats and over the cells of maps, of a
-/// map that stays in the cache and of one of 4000 x 4000 cells. `read` only adds the log-odds up: what memory allows.
+/// What a cell of a map's entropy costs: by a table and by the measure itself, over floats and over the cells of maps,
+/// of a map that stays in the cache and of one of 4000 x 4000 cells. `read` only adds the log-odds up: what memory
+/// allows.
 ///
 /// Log-odds are those of a map half explored: 40 % unknown, 30 % saturated, the others anywhere between. The counter
 /// `error` is the sum's relative difference from the measure's own values, added in doubles.

@@ -165,7 +165,9 @@ TEST_CASE("A map's entropy is that of its cells", "[entropy]") {
   const auto require_map_sum = [](auto map) {
     REQUIRE(map_entropy_nats(map, EntropyTable(Shannon{})) == 0.0);
     incognita::Scan<2> scan(incognita::circular_beams(90, 5.0));
-    for (std::size_t beam = 0; beam < scan.size(); ++beam) scan.set_range_m(beam, 3.0 + 0.02 * static_cast<double>(beam));
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      scan.set_range_m(beam, 3.0 + 0.02 * static_cast<double>(beam));
+    }
     for (int turn = 0; turn < 30; ++turn) map.update(scan, {0.3, 0.1, 0.2}, Eigen::Matrix3d::Identity() * 1e-4);
     std::vector<float> cells;
     for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(map.grid().size()); ++cell) {

@@ -22,8 +22,8 @@ class EntropyLines {
   /// How many cells sum() takes at once: in floats, before a double takes them.
   static constexpr std::size_t chunk = 512;
 
-  /// Takes the fewest lines that keep the error, 1,300 (11 kB) to 11,000 (85 kB) for log-odds up to 22. There are none when
-  /// that does not do: for entropies with jumps, and those that bend within hundredths of log-odds. Calls
+  /// Takes the fewest lines that keep the error, 1,300 (11 kB) to 11,000 (85 kB) for log-odds up to 22. There are none
+  /// when that does not do: for entropies with jumps, and those that bend within hundredths of log-odds. Calls
   /// relative_entropy(l), which is H(l) / H(0), twice for each line that it tries.
   template <class RelativeEntropy>
   void fit(const RelativeEntropy& relative_entropy, double log_odds_max) {

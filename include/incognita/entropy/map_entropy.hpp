@@ -21,8 +21,8 @@ struct ItselfAsLogOdds {
   [[nodiscard]] float operator()(float log_odds) const { return log_odds; }
 };
 
-/// Copies the log-odds of cells that lie next to each other. g++ makes vector code of it as it stands, clang++ only where
-/// a cell of 8 bytes is loaded as an integer.
+/// Copies the log-odds of cells that lie next to each other. g++ makes vector code of it as it stands, clang++ only
+/// where a cell of 8 bytes is loaded as an integer.
 template <class Cell, class LogOddsOf>
 void copy_log_odds(const Cell* cells, std::size_t count, const LogOddsOf& log_odds_of, float* log_odds) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -76,12 +76,13 @@ template <class CellRange, class LogOddsOf>
 /// The sum of the entropies, in nats, of a range of independent cells: of log-odds (float), or of anything of which
 /// log_odds_of(cell) is a float. `entropy` is an EntropyTable or any EntropyMeasure.
 ///
-/// By a table with has_fast_sum(), within 1e-4 of the sum of the measure's values, relatively, whichever cells there are
-/// (those beyond the table's end counting as the end), and exact for unknown cells. Cells are added in chunks of 512, and
-/// in a chunk lane by lane; so the bits depend on the log-odds in their order and on the vectors the program is compiled
-/// for, but neither on the kind of range nor on threads. Otherwise each value is the table's or the measure's own, added
-/// in the range's order. O(cells), no allocation. A Zen 4 core takes 0.31 ns for a float in its cache with AVX2 or AVX-512,
-/// 0.45 without, and 0.37 and 0.5 for a cell of a map; maps larger than the caches wait for memory as well.
+/// By a table with has_fast_sum(), within 1e-4 of the sum of the measure's values, relatively, whichever cells there
+/// are (those beyond the table's end counting as the end), and exact for unknown cells. Cells are added in chunks of
+/// 512, and in a chunk lane by lane; so the bits depend on the log-odds in their order and on the vectors the program
+/// is compiled for, but neither on the kind of range nor on threads. Otherwise each value is the table's or the
+/// measure's own, added in the range's order. O(cells), no allocation. A Zen 4 core takes 0.31 ns for a float in its
+/// cache with AVX2 or AVX-512, 0.45 without, and 0.37 and 0.5 for a cell of a map; maps larger than the caches wait
+/// for memory as well.
 template <class CellRange, class Entropy, class LogOddsOf = detail::ItselfAsLogOdds>
 [[nodiscard]] double entropy_sum(const CellRange& cells, const Entropy& entropy, const LogOddsOf& log_odds_of = {}) {
   if constexpr (std::same_as<Entropy, EntropyTable>) {
@@ -104,8 +105,8 @@ template <class Map, class Entropy>
 
 /// The information gain, in nats, of cells whose log-odds change from before[i] to after[i]: the sum of
 /// H(before[i]) - H(after[i]) (Seo et al., (16); (18) with a behavioral entropy). Negative when the cells
-/// become less certain. Each value is the table's or the measure's own, as a gain is small beside a sum and would drown in
-/// the errors of two; added in order. Throws std::invalid_argument when the lengths differ.
+/// become less certain. Each value is the table's or the measure's own, as a gain is small beside a sum and would
+/// drown in the errors of two; added in order. Throws std::invalid_argument when the lengths differ.
 template <class Entropy>
 [[nodiscard]] double entropy_change(std::span<const float> before_log_odds,
                                     std::span<const float> after_log_odds, const Entropy& entropy) {
