@@ -4,7 +4,9 @@
 /// - entropy/shannon.hpp, renyi.hpp, tsallis.hpp: Shannon{}, Renyi{alpha}, Tsallis{q}
 /// - entropy/behavioral.hpp: Behavioral{alpha} of cells and of probability vectors (Seo et al., (17))
 /// - entropy/log_odds_table.hpp: entropy_of_log_odds, exact, and EntropyTable for inner loops
-/// - entropy/map_entropy.hpp: entropy_sum, and entropy_change, the information gain (Seo et al., (16))
+/// - entropy/map_entropy.hpp: entropy_sum, map_entropy_nats, and entropy_change, the information gain
+///   (Seo et al., (16))
+/// - entropy/entropy_lines.hpp: what makes entropy_sum fast
 ///
 /// # EntropyMeasure
 /// The uncertainty of one binary cell, in nats.
@@ -27,6 +29,7 @@
 #include "incognita/entropy/behavioral.hpp"
 #include "incognita/entropy/binary_cell.hpp"
 #include "incognita/entropy/concept.hpp"
+#include "incognita/entropy/entropy_lines.hpp"
 #include "incognita/entropy/log_odds_table.hpp"
 #include "incognita/entropy/map_entropy.hpp"
 #include "incognita/entropy/renyi.hpp"

@@ -8,6 +8,7 @@
 
 #include "incognita/core/error.hpp"
 #include "incognita/entropy/concept.hpp"
+#include "incognita/entropy/entropy_lines.hpp"
 
 namespace incognita {
 
@@ -28,14 +29,15 @@ struct EntropyTableParams {
 };
 
 /// Any entropy as a function of log-odds by linear interpolation. Symmetric to the bit, and exact at log-odds
-/// 0, so an unknown cell has the measure's own value at p = 1/2. A plain value; const calls are safe from
-/// several threads.
+/// 0, so an unknown cell has the measure's own value at p = 1/2. For sums over many cells it keeps a second table, in
+/// floats. A plain value; const calls are safe from several threads.
 class EntropyTable {
  public:
   using Params = EntropyTableParams;
 
-  /// Calls the measure 2 * intervals + 1 times. Throws std::invalid_argument when log_odds_max is not
-  /// finite and positive, intervals is not in 1..1000000, or the measure is not finite and non-negative.
+  /// Calls the measure 2 * intervals + 1 times, and for the sums up to 45,000 times more (0.1 to 3 ms). Throws
+  /// std::invalid_argument when log_odds_max is not finite and positive, intervals is not in 1..1000000, or the
+  /// measure is not finite and non-negative.
   template <EntropyMeasure Measure>
   explicit EntropyTable(const Measure& measure, const Params& params = {})
       : log_odds_max_(params.log_odds_max),
@@ -58,6 +60,8 @@ class EntropyTable {
       max_error_nats_ = std::max(max_error_nats_, 2.0 * error_nats);
     }
     values_nats_.back() = values_nats_[params.intervals];
+    const double scale = 1.0 / unknown_nats();
+    lines_.fit([&](double log_odds) { return entropy_of_log_odds(measure, log_odds) * scale; }, params.log_odds_max);
   }
 
   /// The entropy in nats. NaN counts as the end of the table.
@@ -81,6 +85,16 @@ class EntropyTable {
   /// only falls from there on.
   [[nodiscard]] double max_error_nats() const { return max_error_nats_; }
 
+  /// Whether entropy_sum takes the fast way, within 1e-4 of the sum. All of Shannon, Renyi and Tsallis do, tested for
+  /// parameters from 0.05 to 50, and Behavioral up to 10. Otherwise it adds what operator() gives.
+  [[nodiscard]] bool has_fast_sum() const { return !lines_.empty(); }
+
+  /// What entropy_sum adds up, relative to unknown_nats().
+  [[nodiscard]] const detail::EntropyLines& lines() const { return lines_; }
+
+  /// The entropy at log-odds 0.
+  [[nodiscard]] double unknown_nats() const { return values_nats_.front(); }
+
   /// The entropy at the table's ends and beyond.
   [[nodiscard]] double end_nats() const { return values_nats_.back(); }
 
@@ -91,6 +105,7 @@ class EntropyTable {
   double log_odds_max_;
   double steps_per_log_odds_;
   double max_error_nats_ = 0.0;
+  detail::EntropyLines lines_;
 };
 
 /// The table's entropy, so that generic code may take a measure or a table.
