@@ -14,21 +14,6 @@ namespace incognita {
 
 namespace detail {
 
-/// One value for each of the eight columns of a tile.
-using ColumnLanes [[gnu::vector_size(32)]] = std::int32_t;
-using WordLanes [[gnu::vector_size(64)]] = std::uint64_t;
-
-[[nodiscard]] inline std::uint64_t any_of(const WordLanes& words) {
-  const auto four = __builtin_shufflevector(words, words, 0, 1, 2, 3) | __builtin_shufflevector(words, words, 4, 5, 6, 7);
-  const auto two = __builtin_shufflevector(four, four, 0, 1) | __builtin_shufflevector(four, four, 2, 3);
-  return two[0] | two[1];
-}
-[[nodiscard]] inline bool is_any(const ColumnLanes& lanes) {
-  const auto four = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3) | __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
-  const auto two = __builtin_shufflevector(four, four, 0, 1) | __builtin_shufflevector(four, four, 2, 3);
-  return (two[0] | two[1]) != 0;
-}
-
 /// std::floor is a call where no option promises SSE 4.1.
 [[nodiscard]] inline int floor_to_int(double value) {
   const int truncated = static_cast<int>(value);
@@ -85,8 +70,8 @@ class SegmentWalk {
   /// How many columns of tiles the segment passes.
   [[nodiscard]] int tile_columns() const { return ((last_column_ + phase_) >> shift) + 1; }
 
-  /// Calls report(column, may_meet) for each column of tiles in the order of the walk: whether a cell of the segment there may
-  /// be set; false is certain. The tiles of the segment's cells and of those beside them must be there.
+  /// Calls report(column, may_meet) for each column of tiles in the order of the walk, until it returns false: whether a cell of
+  /// the segment there may be set; may_meet false is certain. The tiles of the segment's cells and of those beside them must be there.
   template <class Report>
   void survey(const CellBits& bits, Report&& report) const {
     const bool is_rising = last_row_ >= first_row_;
@@ -180,21 +165,19 @@ class SegmentWalk {
     const Offset along_stride = tiles.stride(Major) * step_;
     const Offset across_stride = tiles.stride(1 - Major);
     const std::int64_t slack = Rising ? unsure() : -unsure();
-    const std::int64_t per_tile = CellBits::tile_side * per_column_;
     const int last = tile_columns() - 1;
+    const Offset end_tile = last_row_ >> shift;
     Offset place = place_of<Major>(tiles, 0);
-    // Whether cells are set between two rows, those in which the segment enters and leaves a column of tiles, give or take
-    // what is unsure. More than nine rows are not looked at.
-    const auto may_meet = [=](Offset at, std::int64_t entering, std::int64_t leaving, CellBits::Word columns, Offset end_tile,
+    // Whether cells are set between the rows in which the segment enters and leaves a column of tiles, give or take what is
+    // unsure. More than nine rows are not looked at.
+    const auto may_meet = [=](Offset at, std::int64_t entering, std::int64_t leaving, CellBits::Word columns,
                               CellBits::Word without) {
-      const std::int64_t low = (Rising ? entering : leaving) >> 32;
-      const std::int64_t high = (Rising ? leaving : entering) >> 32;
+      const std::int64_t low = (Rising ? entering - slack : leaving + slack) >> 32;
+      const std::int64_t high = (Rising ? leaving + slack : entering - slack) >> 32;
       const Offset low_tile = low >> shift;
       const Offset high_tile = high >> shift;
-      const CellBits::Word from = rows_from<Major>(static_cast<int>(low));
-      const CellBits::Word up_to = rows_up_to<Major>(static_cast<int>(high));
-      CellBits::Word low_word = words[at + low_tile * across_stride] & from;
-      CellBits::Word high_word = words[at + high_tile * across_stride] & up_to;
+      CellBits::Word low_word = words[at + low_tile * across_stride] & rows_from<Major>(static_cast<int>(low));
+      CellBits::Word high_word = words[at + high_tile * across_stride] & rows_up_to<Major>(static_cast<int>(high));
       if (without != 0) {
         low_word &= ~(low_tile == end_tile ? without : 0);
         high_word &= ~(high_tile == end_tile ? without : 0);
@@ -202,66 +185,67 @@ class SegmentWalk {
       const CellBits::Word set = low_tile == high_tile ? low_word & high_word : low_word | high_word;
       return ((set & columns) != 0) | (high - low > CellBits::tile_side);
     };
-    std::int64_t entering = from_ - slack;
-    std::int64_t leaving = leaving_ + (in_tile - phase_) * per_column_;
-    CellBits::Word columns = columns_from_first<Major>();
-    for (int tile_column = 0; tile_column < last; ++tile_column) {
-      report(tile_column, may_meet(place, entering, leaving + slack, columns, 0, 0));
-      entering = leaving - slack;
-      leaving += per_tile;
-      columns = ~CellBits::Word{0};
-      place += along_stride;
+    if (last == 0) {
+      report(0, may_meet(place, from_, to_, columns_from_first<Major>() & columns_up_to_last<Major>(), without_));
+      return;
     }
-    report(last, may_meet(place, entering, to_ + slack, columns & columns_up_to_last<Major>(), last_row_ >> shift, without_));
+    const std::int64_t per_tile = CellBits::tile_side * per_column_;
+    std::int64_t leaving = leaving_ + (in_tile - phase_) * per_column_;
+    if (!report(0, may_meet(place, from_, leaving, columns_from_first<Major>(), 0))) return;
+    for (int tile_column = 1; tile_column < last; ++tile_column) {
+      place += along_stride;
+      leaving += per_tile;
+      if (!report(tile_column, may_meet(place, leaving - per_tile, leaving, ~CellBits::Word{0}, 0))) return;
+    }
+    report(last, may_meet(place + along_stride, leaving, to_, columns_up_to_last<Major>(), without_));
   }
 
   template <int Major>
   [[nodiscard]] bool find_set_in(const CellBits& bits, int tile_column, std::array<TileCells, 2>& met) const {
-    using namespace detail;
-    constexpr ColumnLanes lane{0, 1, 2, 3, 4, 5, 6, 7};
-    const int column = tile_column * CellBits::tile_side - phase_;
-    const bool is_first = tile_column == 0;
-    const bool is_last = last_column_ - column < CellBits::tile_side;
-    const std::int64_t before = leaving_ + (column - 1) * per_column_;
-    const std::int64_t entering = is_first ? from_ : before;
-    const std::int64_t leaving = is_last ? to_ : before + CellBits::tile_side * per_column_;
-    const int enter_row = static_cast<int>(entering >> 32);
-    const int leave_row = static_cast<int>(leaving >> 32);
+    const int before_first = tile_column * CellBits::tile_side - phase_;
+    const bool is_last = last_column_ - before_first < CellBits::tile_side;
+    const int first = std::max(before_first, 0);
+    const int last = is_last ? last_column_ : before_first + in_tile;
+    const std::int64_t leaving_first = leaving_ + first * per_column_;
+    const std::int64_t entering = tile_column == 0 ? from_ : leaving_first - per_column_;
+    const std::int64_t leaving = is_last ? to_ : leaving_ + last * per_column_;
+    const auto enter_row = static_cast<int>(entering >> 32);
+    const auto leave_row = static_cast<int>(leaving >> 32);
     const int enter_tile = enter_row >> shift;
     const int leave_tile = leave_row >> shift;
 
-    // Across from the first row of the tile that is entered, in 2^-20 of a cell, so that 32 bits are enough.
-    constexpr int fraction = 20;
-    constexpr std::int32_t margin = 32;  // for the rounding of eight columns and what is unsure along a whole walk
-    const std::int64_t zero = std::int64_t{enter_tile} << (32 + shift);
-    const auto near = [zero](std::int64_t at) { return static_cast<std::int32_t>((at - zero) >> (32 - fraction)); };
-    const auto per_column = static_cast<std::int32_t>(per_column_ >> (32 - fraction));
-    const ColumnLanes last = ColumnLanes{} + (last_column_ - column);
-    const ColumnLanes is_there = (lane >= -column) & (lane <= last);
-    const ColumnLanes at_entry = near(before) + lane * per_column;
-    const ColumnLanes at_exit = at_entry + per_column;
-    const ColumnLanes entries = is_first ? (lane == -column ? ColumnLanes{} + near(from_) : at_entry) : at_entry;
-    const ColumnLanes exits = lane == last ? ColumnLanes{} + near(to_) : at_exit;
-    const ColumnLanes column_bit = Major == 0 ? (step_ > 0 ? lane : in_tile - lane) : (step_ > 0 ? lane : in_tile - lane) << shift;
-    ColumnLanes is_unsure{};
-    WordLanes path{};
-    for (const ColumnLanes* const at : {&entries, &exits}) {
-      is_unsure |= ((*at + margin) & ((1 << fraction) - 1)) < 2 * margin;
-      const ColumnLanes row = (*at >> fraction) & in_tile;
-      const ColumnLanes bit = (Major == 0 ? row << shift : row) | column_bit;
-      path |= __builtin_convertvector(is_there & 1, WordLanes) << __builtin_convertvector(bit, WordLanes);
+    // Column by column the row in which it is entered and the one in which it is left, in the bits of rows modulo 8.
+    constexpr int row_shift = Major == 0 ? shift : 0;
+    constexpr int column_shift = shift - row_shift;
+    const auto unsure_by = static_cast<std::uint32_t>(unsure());
+    const auto is_near_a_line = [unsure_by](std::int64_t across) {
+      return static_cast<std::uint32_t>(across) + unsure_by < 2 * unsure_by;
+    };
+    const auto bits_of_row = [](std::int64_t across) { return ((across >> 32) & in_tile) << row_shift; };
+    if (is_near_a_line(entering) || is_near_a_line(leaving)) return false;
+    CellBits::Word cells = 0;
+    auto row = bits_of_row(entering);
+    std::int64_t across = leaving_first;
+    CellBits::Word column_bit = CellBits::Word{1} << (((first_index_ + first * step_) & in_tile) << column_shift);
+    for (int column = first; column < last; ++column) {
+      const auto next_row = bits_of_row(across);
+      cells |= column_bit << row | column_bit << next_row;
+      if (is_near_a_line(across)) return false;
+      row = next_row;
+      across += per_column_;
+      column_bit = std::rotl(column_bit, step_ << column_shift);
     }
-    if (is_any(is_unsure & is_there) || std::abs(leave_row - enter_row) > CellBits::tile_side) return false;
-    const CellBits::Word cells = any_of(path);
+    cells |= column_bit << row | column_bit << bits_of_row(leaving);
+    if (std::abs(leave_row - enter_row) > CellBits::tile_side) return false;
     // The cells of the tile that is left, if it is another one.
     CellBits::Word left = 0;
     if (leave_tile != enter_tile) {
       left = last_row_ > first_row_ ? rows_up_to<Major>(leave_row) : rows_from<Major>(leave_row);
       // Of nine rows the first and the last share their bits; half of the columns belong to each.
       if (((enter_row ^ leave_row) & in_tile) == 0) {
-        const CellBits::Word row = rows_from<Major>(leave_row) & rows_up_to<Major>(leave_row);
+        const CellBits::Word shared = rows_from<Major>(leave_row) & rows_up_to<Major>(leave_row);
         const CellBits::Word first_half = step_ > 0 ? rows_up_to<1 - Major>(3) : rows_from<1 - Major>(4);
-        left &= ~(row & first_half);
+        left &= ~(shared & first_half);
       }
     }
     const Grid<CellBits::Word, 2>& tiles = bits.tiles();
@@ -349,20 +333,16 @@ class SegmentWalk {
 template <class Visit>
 void visit_set(const CellBits& bits, const Point<2>& from, const Point<2>& to, Visit&& visit) {
   const SegmentWalk walk(from, to, true);
-  bool goes_on = true;
   walk.survey(bits, [&](int column, bool may_meet) {
-    if (!may_meet || !goes_on) return;
+    if (!may_meet) return true;
     std::array<SegmentWalk::TileCells, 2> met;
-    if (!walk.find_set(bits, column, met)) {
-      goes_on = walk.visit_exactly(bits, column, from, to, visit);
-      return;
-    }
-    for (const SegmentWalk::TileCells& tile : met) goes_on = goes_on && (tile.cells == 0 || visit(tile));
+    if (!walk.find_set(bits, column, met)) return walk.visit_exactly(bits, column, from, to, visit);
+    return (met[0].cells == 0 || visit(met[0])) && (met[1].cells == 0 || visit(met[1]));
   });
 }
 
 /// The first cell of a segment, between points in lattice coordinates, whose bit is set; none where there is none. The tiles
-/// as in visit_set. O(tiles passed).
+/// as in visit_set. O(tiles passed before).
 [[nodiscard]] inline std::optional<Index<2>> first_set(const CellBits& bits, const Point<2>& from, const Point<2>& to) {
   const SegmentWalk walk(from, to, true);
   std::optional<Index<2>> first;

@@ -116,6 +116,7 @@ class MapBeams {
       beam.walk.survey(layers.heeding, [&](int column, bool may_meet) {
         possible_[count] = {static_cast<std::uint32_t>(b), column};
         count += static_cast<std::size_t>(may_meet);
+        return true;
       });
     }
     std::size_t met_count = 0;
