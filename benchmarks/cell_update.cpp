@@ -99,8 +99,10 @@ class PlainGrid {
   std::vector<float> cells_;
 };
 
-/// The least that an update can do where every touch is written: which cells a beam meets in a column (or row,
-/// along its longer axis) depends on no column before, nothing is clamped, and there is no branch in the walk.
+/// The least that an update can do where every touch is written: nothing is clamped and no branch is in the walk.
+/// A beam leaves each cell through one of the two faces ahead, so it crosses the diagonal between their far ends;
+/// seen from the first cell, that of the n-th cell is where the steps along both axes sum up to n + 1. So each
+/// cell follows from its number alone, and no touch waits for the one before.
 class FloorGrid {
  public:
   explicit FloorGrid(double resolution_m)
@@ -117,37 +119,31 @@ class FloorGrid {
       const Reading reading = scan.reading(beam);
       if (reading == Reading::invalid) continue;
       const double push_m = reading == Reading::hit ? hit_push_cells * resolution_m_ : 0.0;
-      const Eigen::Vector2d to = from + rotation * scan.direction(beam) * (scan.range_m(beam) + push_m);
-      const bool x_is_longer = std::abs(to.x() - from.x()) >= std::abs(to.y() - from.y());
-      touched += x_is_longer ? add(from.x(), to.x(), 1, from.y(), to.y(), width_)
-                             : add(from.y(), to.y(), width_, from.x(), to.x(), 1);
+      touched += add(from, from + rotation * scan.direction(beam) * (scan.range_m(beam) + push_m));
     }
     return touched;
   }
 
  private:
-  /// Adds 1 to each cell between two places, all coordinates positive: `along` the longer axis, and `across`.
-  std::int64_t add(double from_along, double to_along, std::ptrdiff_t stride_along, double from_across,
-                   double to_across, std::ptrdiff_t stride_across) {
-    const int first = static_cast<int>(from_along);
-    const int columns = std::abs(static_cast<int>(to_along) - first);
-    const int step = to_along > from_along ? 1 : -1;
-    const double slope = (to_across - from_across) / (to_along - from_along);
-    const double at_first_exit = from_across + slope * (first + (step > 0 ? 1 : 0) - from_along);
-    float* column = cells_.data() + first * stride_along;
-    auto across = static_cast<std::ptrdiff_t>(from_across);
-    const auto visit_column = [&](std::ptrdiff_t next) {
-      column[across * stride_across] += 1.0F;
-      column[next * stride_across] += next != across ? 1.0F : 0.0F;
-      across = next;
-      column += step * stride_along;
-    };
-    for (int n = 0; n < columns; ++n) {
-      visit_column(static_cast<std::ptrdiff_t>(at_first_exit + slope * (step * n)));
+  /// Adds 1 to each cell between two places in cells, all coordinates positive.
+  std::int64_t add(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    const int x = static_cast<int>(from.x());
+    const int y = static_cast<int>(from.y());
+    const double dx = to.x() - from.x();
+    const double dy = to.y() - from.y();
+    const int count = 1 + std::abs(static_cast<int>(to.x()) - x) + std::abs(static_cast<int>(to.y()) - y);
+    const double inside_x = dx > 0.0 ? from.x() - x : x + 1 - from.x();
+    const double inside_y = dy > 0.0 ? from.y() - y : y + 1 - from.y();
+    const double share_x = std::abs(dx) / (std::abs(dx) + std::abs(dy));
+    const double x_of_first = inside_x + share_x * (1.0 - inside_x - inside_y);
+    const std::ptrdiff_t stride_x = dx > 0.0 ? 1 : -1;
+    const std::ptrdiff_t stride_y = dy > 0.0 ? width_ : -width_;
+    const std::ptrdiff_t turn = stride_x - stride_y;  // from a step along y to one along x
+    float* at = cells_.data() + y * width_ + x;
+    for (int n = 0; n < count; ++n, at += stride_y) {
+      at[static_cast<int>(x_of_first + share_x * n) * turn] += 1.0F;
     }
-    const auto last = static_cast<std::ptrdiff_t>(to_across);
-    visit_column(last);
-    return 1 + columns + std::abs(last - static_cast<std::ptrdiff_t>(from_across));
+    return count;
   }
 
   double resolution_m_;
