@@ -18,15 +18,14 @@ using mrpt::obs::CObservation2DRangeScan;
 using mrpt::poses::CPose2D;
 using mrpt::poses::CPose3D;
 
-/// MRPT spreads its beams from one end of the aperture to the other, both included.
-CObservation2DRangeScan circular_scan(std::size_t beams, double range_max_m) {
+constexpr double whole_turn_rad = 2.0 * std::numbers::pi;
+
+/// Beams all around, the first along the robot's x axis.
+CObservation2DRangeScan circular_scan(std::size_t beams, double aperture_rad, double range_max_m) {
   CObservation2DRangeScan scan;
   scan.resizeScan(beams);
-  const double increment_rad = 2.0 * std::numbers::pi / static_cast<double>(beams);
-  const double aperture_rad = 2.0 * std::numbers::pi - increment_rad;
   scan.aperture = static_cast<float>(aperture_rad);
   scan.rightToLeft = true;
-  // The first beam along the robot's x axis.
   scan.sensorPose = CPose3D(0.0, 0.0, 0.0, 0.5 * aperture_rad, 0.0, 0.0);
   scan.maxRange = static_cast<float>(range_max_m);
   return scan;
@@ -54,7 +53,9 @@ MrptDrive::MrptDrive(const std::vector<PlanarScan>& scans, double range_max_m) :
     // A beam that met nothing becomes a valid reading beyond the largest distance of insertion: MRPT then frees the
     // way up to that distance and sets no end. An invalid one would be freed for half of it only.
     constexpr double beyond_m = 1.0;
-    CObservation2DRangeScan to = circular_scan(from.ranges_m.size(), range_max_m + 2.0 * beyond_m);
+    // The grid spaces beams by the aperture over their number.
+    CObservation2DRangeScan to =
+        circular_scan(from.ranges_m.size(), whole_turn_rad, range_max_m + 2.0 * beyond_m);
     for (std::size_t beam = 0; beam < from.ranges_m.size(); ++beam) {
       const bool is_clear = from.ranges_m[beam] >= range_max_m;
       to.setScanRange(beam, static_cast<float>(is_clear ? range_max_m + beyond_m : from.ranges_m[beam]));
@@ -70,11 +71,26 @@ MrptDrive::~MrptDrive() = default;
 std::size_t MrptDrive::size() const { return data_->scans.size(); }
 
 std::int64_t MrptDrive::touches(std::size_t n, double resolution_m) const {
-  // Passes add 1, hits add nothing, and few beams at a time, so that the 8 bits of no cell overflow.
-  float freeness = 0.5F;
-  const int unknown = COccupancyGridMap2D::p2l(0.5F);
-  while (COccupancyGridMap2D::p2l(freeness) - unknown < 1) freeness += 1e-4F;
+  // What a scan adds up to in the cells, a pass worth so many steps of their 8 bits, and a hit the same whatever a
+  // pass is worth: the difference between two worths is the number of passes. Few beams at a time, so that no cell
+  // overflows.
   constexpr std::size_t beams_at_once = 60;
+  const int unknown = COccupancyGridMap2D::p2l(0.5F);
+  const auto sum_of_changes = [&](const CObservation2DRangeScan& scan, int pass_worth) {
+    float freeness = 0.5F;
+    while (COccupancyGridMap2D::p2l(freeness) - unknown < pass_worth) freeness += 1e-4F;
+    COccupancyGridMap2D cells = small_grid(resolution_m, data_->range_max_m);
+    cells.insertionOptions.considerInvalidRangesAsFreeSpace = false;
+    cells.insertionOptions.maxOccupancyUpdateCertainty = 0.5F;
+    cells.insertionOptions.maxFreenessUpdateCertainty = freeness;
+    cells.insertObservation(scan, data_->poses[n]);
+    std::int64_t sum = 0;
+    for (unsigned y = 0; y < cells.getSizeY(); ++y) {
+      const COccupancyGridMap2D::cellType* const row = cells.getRow(static_cast<int>(y));
+      for (unsigned x = 0; x < cells.getSizeX(); ++x) sum += row[x] - unknown;
+    }
+    return sum;
+  };
 
   std::int64_t touches = 0;
   const std::size_t beams = data_->scans[n].getScanSize();
@@ -85,15 +101,7 @@ std::int64_t MrptDrive::touches(std::size_t n, double resolution_m) const {
       part.setScanRangeValidity(beam, is_used);
       if (is_used && part.getScanRange(beam) < static_cast<float>(data_->range_max_m)) ++touches;  // its hit
     }
-    COccupancyGridMap2D cells = small_grid(resolution_m, data_->range_max_m);
-    cells.insertionOptions.considerInvalidRangesAsFreeSpace = false;
-    cells.insertionOptions.maxOccupancyUpdateCertainty = 0.5F;
-    cells.insertionOptions.maxFreenessUpdateCertainty = freeness;
-    cells.insertObservation(part, data_->poses[n]);
-    for (unsigned y = 0; y < cells.getSizeY(); ++y) {
-      const COccupancyGridMap2D::cellType* const row = cells.getRow(static_cast<int>(y));
-      for (unsigned x = 0; x < cells.getSizeX(); ++x) touches += row[x] - unknown;
-    }
+    touches += sum_of_changes(part, 2) - sum_of_changes(part, 1);
   }
   return touches;
 }
@@ -137,7 +145,9 @@ double MrptGrid::cast_ray_m(double x_m, double y_m, double direction_rad, double
 void MrptGrid::simulate_scan(double x_m, double y_m, double yaw_rad, std::size_t count, double range_max_m) {
   CObservation2DRangeScan& scan = data_->simulated;
   if (scan.getScanSize() != count || scan.maxRange != static_cast<float>(range_max_m)) {
-    scan = circular_scan(count, range_max_m);
+    // The simulator's last beam lies at the aperture's end.
+    const auto beams = static_cast<double>(count);
+    scan = circular_scan(count, whole_turn_rad * (beams - 1.0) / beams, range_max_m);
   }
   data_->grid.laserScanSimulator(scan, CPose2D(x_m, y_m, yaw_rad), 0.5F, count);
 }
