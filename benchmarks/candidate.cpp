@@ -3,7 +3,8 @@
 /// An explorer with the defaults explores the embedded floor for a while; of its decisions the one with the most
 /// candidates is kept, with the map and the estimator of that moment. Timed is what it spends on them: `1` candidate
 /// at a time, in turn, or `40` at once, those of the decision again and again until they are so many. `per_scan` is
-/// the time of a predicted scan of 60 beams. Time on the wall, so that threads count for what they save.
+/// the time of a predicted scan of 60 beams. Time on the wall, so that threads count for what they save; `control` is
+/// arithmetic that shares nothing, and says what a second thread could save at all while this ran.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "accuracy/drive.hpp"
+#include "incognita/core/parallel.hpp"
 #include "incognita/exploration/candidate.hpp"
 #include "incognita/io/kth_xml.hpp"
 #include "kth_explorer/embedded_floor_plan.hpp"
@@ -78,9 +80,27 @@ void time_evaluation(benchmark::State& state, std::size_t count, int threads) {
   state.counters["decided_between"] = static_cast<double>(decided.size());
 }
 
+void time_control(benchmark::State& state, int threads) {
+  std::vector<double> results(40);
+  for (auto _ : state) {
+    incognita::for_each_index(results.size(), threads, [&](std::size_t index, int) {
+      double x = 1.0 + static_cast<double>(index);
+      for (int n = 0; n < 50'000; ++n) x = x * 0.999 + 1.0;
+      results[index] = x;
+    });
+    benchmark::DoNotOptimize(results);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  for (const int threads : {1, 2}) {
+    std::string name = "control/";
+    name += std::to_string(threads) + "_threads";
+    const auto time = [=](benchmark::State& state) { time_control(state, threads); };
+    benchmark::RegisterBenchmark(name.c_str(), time)->Unit(benchmark::kMicrosecond)->UseRealTime();
+  }
   for (const std::size_t count : {1U, 40U}) {
     for (const int threads : {1, 2}) {
       std::string name = "evaluate/";
