@@ -16,9 +16,10 @@ NATIVE = "benchmark-native"
 V3 = "benchmark-v3"
 SEEN = ["fresh", "revisited"]
 SECONDS_PER = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+NAME_SUFFIXES = re.compile(r"/(real_time|manual_time|iterations:\d+|repeats:\d+|min_time:[\d.]+)")
 NOT_COUNTERS = {"name", "run_name", "run_type", "time_unit", "family_index", "per_family_instance_index", "repetitions",
                 "repetition_index", "threads", "iterations", "real_time", "cpu_time", "error_occurred", "error_message"}
-IN_SECONDS = re.compile(r"^per_|_s$")
+IN_SECONDS = re.compile(r"^per_|(?<!per)_s$")
 
 
 class Results:
@@ -30,10 +31,11 @@ class Results:
         for file in sorted(folder.glob("*/*.json")):
             content = json.loads(file.read_text())
             program = self.runs.setdefault(file.parent.name, {}).setdefault(file.stem, {})
-            for run in content["benchmarks"]:
+            # As they are written in the program, not in the order in which they took turns.
+            for run in sorted(content["benchmarks"], key=lambda run: run["family_index"]):
                 if run.get("run_type") == "aggregate":
                     continue
-                name = re.sub(r"/(real_time|manual_time|iterations:\d+|repeats:\d+|min_time:[\d.]+)", "", run["run_name"])
+                name = NAME_SUFFIXES.sub("", run["run_name"])
                 if run.get("error_occurred"):
                     self.errors.append(f"{file.stem} ({file.parent.name}), {name}: {run['error_message']}")
                     continue
@@ -108,7 +110,8 @@ def bars(results):
         ("T-BayesMap's update of a cell against plain, native", "at most", 0.95, cell("TBayes", NATIVE)),
         ("T-BayesMap's update of a cell against plain, x86-64-v3", "at most", 1.5, cell("TBayes", V3)),
         ("log-odds update of a cell against plain, native", "at most", 0.65, cell("LogOdds", NATIVE)),
-        ("T-BayesMap's update with a scan against MRPT's", "at most", 0.9, peer("incognita_TBayes", "mrpt", "per_scan")),
+        ("T-BayesMap's update with a scan against MRPT's", "at most", 0.9,
+         peer("incognita_TBayes", "mrpt", "per_scan")),
         ("OctoMap's update of a cell (default) against T-BayesMap's", "at least", 30.0,
          peer("octomap_default", "incognita_TBayes", "per_touch")),
         ("Exact rays a second at 0.2 m against MRPT's better simulator", "at least", 2.0,
@@ -178,8 +181,8 @@ def peer_table(results, preset):
             if None in scan + touch + [touches]:
                 row += ["", "", ""]
                 continue
-            row += [" / ".join(f"{value * 1e6:.0f}" for value in scan), " / ".join(f"{value * 1e9:.1f}" for value in touch),
-                    f"{touches:.0f}"]
+            row += [" / ".join(f"{value * 1e6:.0f}" for value in scan),
+                    " / ".join(f"{value * 1e9:.1f}" for value in touch), f"{touches:.0f}"]
         rows.append(row)
     header = ["map"]
     for resolution in ["0.2 m", "0.05 m"]:
@@ -200,7 +203,8 @@ def program_table(results, program):
                 row.append("")
                 continue
             times = figures["time_s"]
-            row.append(f"{shown(statistics.median(times), '_s')} ({shown(min(times), '_s')} to {shown(max(times), '_s')})")
+            middle, low, high = (shown(pick(times), "_s") for pick in (statistics.median, min, max))
+            row.append(f"{middle} ({low} to {high})")
         figures = results.program(presets[0], program).get(name, {})
         row.append(", ".join(f"{what} {shown(statistics.median(values), what)}" for what, values in figures.items()
                              if what != "time_s"))
@@ -218,7 +222,7 @@ def plot(file, title, unit, bars_by_group, logarithmic=False):
             for group, values in bars_by_group.items()]
     columns = ", ".join(f"$data using {column + 2}:xtic(1) title '{name.replace('_', ' ')}'"
                         for column, name in enumerate(series))
-    script = "\n".join(["$data << END", *rows, "END", "set terminal pngcairo size 1000,520 font 'DejaVu Sans,10'",
+    script = "\n".join(["$data << END", *rows, "END", "set terminal pngcairo size 1200,520 font 'DejaVu Sans,10'",
                         f"set output '{file}'", f"set title '{title}'", f"set ylabel '{unit}'", "set grid ytics",
                         "set style data histograms", "set style fill solid 0.85", "set boxwidth 0.9",
                         "set key outside right top", "set logscale y" if logarithmic else "set yrange [0:]",
@@ -228,7 +232,7 @@ def plot(file, title, unit, bars_by_group, logarithmic=False):
 
 
 def groups(results, program, what, scale, pattern):
-    """group -> series -> value of the native medians; a name is matched by `pattern`, with the parts series and group."""
+    """group -> series -> value of the native medians; `pattern` finds both in a benchmark's name."""
     found = {}
     for name in results.program(NATIVE, program):
         value = results.median(NATIVE, program, name, what)
@@ -261,31 +265,29 @@ def speed_up_note(results):
 def report(results, output):
     date = results.machine.get("date", "undated")
     part = [f"# Benchmarks, {date}\n",
-            "What `benchmarks/run` measured: medians over repetitions, which take turns at random within a program. Ratios "
-            "are those of medians of the same program in the same run.\n",
+            "What `benchmarks/run` measured: medians over repetitions, which take turns at random within a program. "
+            "Ratios are those of medians of the same program in the same run.\n",
             table(["machine", ""], [[key, value] for key, value in results.machine.items() if key != "date"]),
             "## Bars\n", table(["what", "bar", "measured", ""], bar_rows(results)),
             speed_up_note(results),
-            "Not in this table: bars whose programs do not exist yet. OctoMap keeps one layer of an octree, voxels a cell "
-            "thick, where the library and MRPT keep a dense plane; it can hold a building in space, which they cannot.\n"]
+            "OctoMap keeps one layer of an octree where the library and MRPT keep a dense plane.\n"]
     if results.errors:
         part += ["Failed:\n", "\n".join(f"- {error}" for error in dict.fromkeys(results.errors)) + "\n"]
     if results.program(NATIVE, "cell_update"):
         part += ["## Update of a touched cell\n",
-                 "ns, fresh / revisited map. `floor` is what the machine takes for an exact traversal and one addition to a "
-                 "4-byte float in each cell met, in the same binary. A map that steps over tiles of cells which ignore "
-                 "passes may be faster than the floor: it leaves cells alone.\n"]
+                 "ns, fresh / revisited map. `floor` is an exact traversal and one addition to a 4-byte float in each "
+                 "cell met, in the same binary. A map that steps over tiles of cells which ignore passes may be faster "
+                 "than the floor: it leaves cells alone.\n"]
         for preset in (NATIVE, V3):
             if results.program(preset, "cell_update"):
                 part += [f"{preset.removeprefix('benchmark-')}:\n", cell_table(results, preset)]
     if results.program(NATIVE, "peers"):
         part += ["## Beside MRPT and OctoMap\n",
-                 "The same scans at the same poses, 360 beams of 10 m, one thread, fresh / revisited map, native; MRPT and "
-                 "OctoMap as Debian builds them, OctoMap's templates compiled with the library's flags. A touch is a cell "
-                 "met by a beam, by each contestant's own walk. MRPT steps along the longer axis from cell to cell, in "
-                 "whole cells, so it meets fewer cells, and not always those that the beam passes; its cells are of 8 "
-                 "bits. OctoMap writes a cell at most once a scan, except by `insertPointCloudRays`; its ns are still by "
-                 "the touches of all beams.\n",
+                 "The same scans at the same poses, 360 beams of 10 m, one thread, fresh / revisited map, native. MRPT "
+                 "and OctoMap are Debian's, OctoMap's templates compiled with the library's flags. A touch is a cell "
+                 "met by a beam, by each contestant's own walk. MRPT steps along the longer axis in whole cells, so it "
+                 "meets fewer, and not always those that the beam passes; its cells have 8 bits. OctoMap writes a cell "
+                 "at most once a scan, except by `insertPointCloudRays`; its ns are by the touches of all beams.\n",
                  peer_table(results, NATIVE)]
     if results.compile_time:
         part += ["## Compiling\n", results.compile_time.replace("\n", "\n\n") + "\n"]
@@ -301,7 +303,8 @@ def report(results, output):
 def readme_table(results):
     machine = results.machine
     lines = [f"{machine.get('processor', 'Unknown processor')}, {machine.get('compiler', 'unknown compiler')}, "
-             f"-O3 -march=native, medians of {machine.get('repetitions', '?')}, ns a touched cell, fresh / revisited map:\n",
+             f"-O3 -march=native, medians of {machine.get('repetitions', '?')}, ns a touched cell, "
+             "fresh / revisited map:\n",
              cell_table(results, NATIVE)]
     if results.program(NATIVE, "peers"):
         lines += ["Beside others, on one thread, fresh / revisited:\n", peer_table(results, NATIVE)]
