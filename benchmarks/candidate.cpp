@@ -1,10 +1,14 @@
-/// The cost of telling what a drive to a frontier would show: the evaluation of candidates in a half-known office.
+/// The cost of telling what a drive to a frontier would show: the evaluation of candidates in a half-known
+/// office.
 ///
-/// An explorer with the defaults explores the embedded floor for a while; of its decisions the one with the most
-/// candidates is kept, with the map and the estimator of that moment. Timed is what it spends on them: `1` candidate
-/// at a time, in turn, or `40` at once, those of the decision again and again until they are so many. `per_scan` is
-/// the time of a predicted scan of 60 beams. Time on the wall, so that threads count for what they save; `control` is
-/// arithmetic that shares nothing, and says what a second thread could save at all while this ran.
+/// An explorer with the defaults explores the embedded floor for a while; of its decisions the one with the
+/// most candidates is kept, with the map and the estimator of that moment. Timed is what it spends on them:
+/// `1` candidate at a time, in turn, or `40` at once, those of the decision again and again until they are so
+/// many. `per_scan` is the time of a predicted scan of 60 beams. Time on the wall, so that threads count for
+/// what they save; `control` is arithmetic that shares nothing, and says what a second thread could save at
+/// all while this ran.
+#include "incognita/exploration/candidate.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -14,7 +18,6 @@
 
 #include "accuracy/drive.hpp"
 #include "incognita/core/parallel.hpp"
-#include "incognita/exploration/candidate.hpp"
 #include "incognita/io/kth_xml.hpp"
 #include "kth_explorer/embedded_floor_plan.hpp"
 
@@ -71,16 +74,18 @@ void time_evaluation(benchmark::State& state, std::size_t count, int threads) {
       scans += static_cast<double>(predicted_scans(candidate));
     }
     state.ResumeTiming();
-    evaluate_candidates(chooser().map(), chooser().entropy(), chooser().filter(), candidates, chooser().params().gain,
-                        threads, workspaces);
+    evaluate_candidates(chooser().map(), chooser().entropy(), chooser().filter(), candidates,
+                        chooser().params().gain, threads, workspaces);
     benchmark::DoNotOptimize(candidates);
   }
-  state.counters["per_scan"] = benchmark::Counter(scans, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["per_scan"] =
+      benchmark::Counter(scans, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["predicted_scans"] = benchmark::Counter(scans, benchmark::Counter::kAvgIterations);
   state.counters["decided_between"] = static_cast<double>(decided.size());
 }
 
-/// Not inlined: the compiler would work on several numbers at once on one thread, and on one at a time on two.
+/// Not inlined: the compiler would work on several numbers at once on one thread, and on one at a time on
+/// two.
 [[gnu::noinline]] double do_arithmetic(double x) {
   for (int n = 0; n < 50'000; ++n) x = x * 0.999 + 1.0;
   return x;

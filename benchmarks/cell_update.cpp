@@ -99,10 +99,10 @@ class PlainGrid {
   std::vector<float> cells_;
 };
 
-/// The least that an update can do where every touch is written: nothing is clamped and no branch is in the walk.
-/// A beam leaves each cell through one of the two faces ahead, so it crosses the diagonal between their far ends;
-/// seen from the first cell, that of the n-th cell is where the steps along both axes sum up to n + 1. So each
-/// cell follows from its number alone, and no touch waits for the one before.
+/// The least that an update can do where every touch is written: nothing is clamped and no branch is in the
+/// walk. A beam leaves each cell through one of the two faces ahead, so it crosses the diagonal between their
+/// far ends; seen from the first cell, that of the n-th cell is where the steps along both axes sum up to n
+/// + 1. So each cell follows from its number alone, and no touch waits for the one before.
 class FloorGrid {
  public:
   explicit FloorGrid(double resolution_m)

@@ -1,10 +1,11 @@
 /// The library beside MRPT's occupancy grid and OctoMap: the same scans and poses into their maps, and rays.
 ///
-/// Every fourth scan of the shared drive, 360 beams of 10 m, each on one thread. The beams end where they were
-/// measured, in all maps. `per_scan` is the time of a scan; `touches_per_scan` counts the cells that the beams meet
-/// by each contestant's own walk, a cell once for each beam: MRPT steps along the longer axis alone and so meets
-/// fewer, OctoMap leaves out the end of a beam that met nothing. `written_per_scan` is what OctoMap writes after
-/// it has sorted out duplicates. OctoMap keeps a layer of one octree, a voxel thick, where the others keep a plane.
+/// Every fourth scan of the shared drive, 360 beams of 10 m, each on one thread. The beams end where they
+/// were measured, in all maps. `per_scan` is the time of a scan; `touches_per_scan` counts the cells that the
+/// beams meet by each contestant's own walk, a cell once for each beam: MRPT steps along the longer axis
+/// alone and so meets fewer, OctoMap leaves out the end of a beam that met nothing. `written_per_scan` is
+/// what OctoMap writes after it has sorted out duplicates. OctoMap keeps a layer of one octree, a voxel
+/// thick, where the others keep a plane.
 ///
 /// `ray/` casts the rays of ray_cast in the office. MRPT's go in steps of a cell and may miss corners:
 /// `difference_m` is their mean distance to the exact range.
@@ -73,7 +74,8 @@ const MrptDrive& mrpt_drive() {
   return made;
 }
 
-/// Scans as clouds in the map's frame; a beam that met nothing ends beyond the range, where OctoMap cuts it off.
+/// Scans as clouds in the map's frame; a beam that met nothing ends beyond the range, where OctoMap cuts it
+/// off.
 struct OctoMapDrive {
   std::vector<octomap::point3d> origins;
   std::vector<octomap::Pointcloud> clouds;
@@ -144,7 +146,8 @@ Touches count_of_octomap(double resolution_m) {
     for (const octomap::point3d& point : octomap_drive().clouds[n]) {
       const octomap::point3d way = point - origin;
       const bool is_hit = way.norm() <= range_max_m;
-      const octomap::point3d end = is_hit ? point : origin + way.normalized() * static_cast<float>(range_max_m);
+      const octomap::point3d end =
+          is_hit ? point : origin + way.normalized() * static_cast<float>(range_max_m);
       tree.computeRayKeys(origin, end, keys);
       touches.met += static_cast<double>(keys.size()) + (is_hit ? 1.0 : 0.0);
     }
@@ -169,7 +172,8 @@ const Touches& counted(Touches (*count)(double), double resolution_m) {
   return place->second;
 }
 
-/// Times the writing of the drive into what make(resolution) returns by write(map, scan number), then finish(map).
+/// Times the writing of the drive into what make(resolution) returns by write(map, scan number), then
+/// finish(map).
 template <class Make, class Write, class Finish>
 void register_map(const std::string& name, const Case& of, Touches (*count)(double), const Make& make,
                   const Write& write, const Finish& finish) {
@@ -208,7 +212,10 @@ void register_map(const std::string& name, const Case& of, Touches (*count)(doub
 template <class Cell>
 void register_incognita(const std::string& name, const Case& of) {
   register_map(
-      name, of, count_exactly, [](double resolution_m) { return Map<Cell>({resolution_m, 0.0}); },
+      name, of, count_exactly,
+      [](double resolution_m) {
+        return Map<Cell>({resolution_m, 0.0});
+      },
       [](Map<Cell>& map, std::size_t n) {
         map.update(drive().scans[n], drive().T_map_sensor[n], benchmarks::recording().covariance);
       },
@@ -241,18 +248,22 @@ void register_maps(const Case& of) {
   register_incognita<incognita::TBayes>("incognita_TBayes", of);
   register_incognita<incognita::LogOdds>("incognita_LogOdds", of);
   register_mrpt(of);
-  register_octomap("octomap_default", of, false, [](OcTree& tree, const Pointcloud& cloud, const point3d& origin) {
-    tree.insertPointCloud(cloud, origin, range_max_m);
-  });
-  register_octomap("octomap_lazy", of, true, [](OcTree& tree, const Pointcloud& cloud, const point3d& origin) {
-    tree.insertPointCloud(cloud, origin, range_max_m, true);
-  });
-  register_octomap("octomap_discretized", of, true, [](OcTree& tree, const Pointcloud& cloud, const point3d& origin) {
-    tree.insertPointCloud(cloud, origin, range_max_m, true, true);  // lazy, too
-  });
-  register_octomap("octomap_rays_lazy", of, true, [](OcTree& tree, const Pointcloud& cloud, const point3d& origin) {
-    tree.insertPointCloudRays(cloud, origin, range_max_m, true);
-  });
+  register_octomap("octomap_default", of, false,
+                   [](OcTree& tree, const Pointcloud& cloud, const point3d& origin) {
+                     tree.insertPointCloud(cloud, origin, range_max_m);
+                   });
+  register_octomap("octomap_lazy", of, true,
+                   [](OcTree& tree, const Pointcloud& cloud, const point3d& origin) {
+                     tree.insertPointCloud(cloud, origin, range_max_m, true);
+                   });
+  register_octomap("octomap_discretized", of, true,
+                   [](OcTree& tree, const Pointcloud& cloud, const point3d& origin) {
+                     tree.insertPointCloud(cloud, origin, range_max_m, true, true);  // lazy, too
+                   });
+  register_octomap("octomap_rays_lazy", of, true,
+                   [](OcTree& tree, const Pointcloud& cloud, const point3d& origin) {
+                     tree.insertPointCloudRays(cloud, origin, range_max_m, true);
+                   });
 }
 
 const RayCourse& course(double resolution_m) {

@@ -2,6 +2,8 @@
 ///
 /// The rays are those of the shared drive, 360 from a pose, up to 10 m. `plain` is what one writes first. All
 /// contestants must find the same ranges; the few rays that graze a corner may differ.
+#include "incognita/sensor/ray_cast.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -11,7 +13,6 @@
 #include <vector>
 
 #include "incognita/grid/grid.hpp"
-#include "incognita/sensor/ray_cast.hpp"
 #include "ray_course.hpp"
 
 namespace {
@@ -28,7 +29,8 @@ const RayCourse& course(double resolution_m) {
 }
 
 double cast_on_grid_m(const RayCourse& course, const Ray& ray) {
-  return incognita::cast_ray_m<std::uint8_t, 2>(course.walls, ray.origin_m, ray.direction, range_max_m, is_wall);
+  return incognita::cast_ray_m<std::uint8_t, 2>(course.walls, ray.origin_m, ray.direction, range_max_m,
+                                                is_wall);
 }
 
 double cast_in_field_m(const RayCourse& course, const Ray& ray) {

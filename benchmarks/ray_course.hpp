@@ -19,7 +19,8 @@ namespace benchmarks {
   const int pixels = static_cast<int>(std::lround(resolution_m / plan.resolution_m()));
   const incognita::Index<2> extent = plan.box().extent();
   incognita::Grid<std::uint8_t, 2> office(incognita::Lattice<2>(resolution_m),
-                                          {{0, 0}, {extent.x() / pixels, extent.y() / pixels}}, std::uint8_t{0});
+                                          {{0, 0}, {extent.x() / pixels, extent.y() / pixels}},
+                                          std::uint8_t{0});
   for (int y = 0; y < extent.y(); ++y) {
     for (int x = 0; x < extent.x(); ++x) {
       if (plan.value({x, y}) != 0) office.set({x / pixels, y / pixels}, std::uint8_t{1});

@@ -1,12 +1,12 @@
-/// The drive that the benchmarks share: an office drawn on a grid, and what a robot records that drives through it.
+/// The drive that the benchmarks share: an office drawn on a grid, and what a robot records that drives
+/// through it.
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "incognita/core/random.hpp"
 #include "incognita/geometry/pose2.hpp"
@@ -17,7 +17,8 @@
 
 namespace benchmarks {
 
-/// How far behind a measured end point the walk of a beam ends, in cells: the default of incognita::MapParams.
+/// How far behind a measured end point the walk of a beam ends, in cells: the default of
+/// incognita::MapParams.
 constexpr double hit_push_cells = 0.5;
 constexpr double range_max_m = 10.0;
 

@@ -283,9 +283,10 @@ def report(results, output):
                 part += [f"{preset.removeprefix('benchmark-')}:\n", cell_table(results, preset)]
     if results.program(NATIVE, "peers"):
         part += ["## Beside MRPT and OctoMap\n",
-                 "The same scans at the same poses, 360 beams of 10 m, one thread, fresh / revisited map, native. MRPT "
-                 "and OctoMap are Debian's, OctoMap's templates compiled with the library's flags. A touch is a cell "
-                 "met by a beam, by each contestant's own walk. MRPT steps along the longer axis in whole cells, so it "
+                 "The same scans at the same poses, 360 beams of 10 m that end where they were measured (the library's "
+                 "hits are not pushed), one thread, fresh / revisited map, native. MRPT and OctoMap are Debian's, "
+                 "OctoMap's templates compiled with the library's flags. A touch is a cell met by a beam, by each "
+                 "contestant's own walk. MRPT steps along the longer axis in whole cells, so it "
                  "meets fewer, and not always those that the beam passes; its cells have 8 bits. OctoMap writes a cell "
                  "at most once a scan, except by `insertPointCloudRays`; its ns are by the touches of all beams.\n",
                  peer_table(results, NATIVE)]

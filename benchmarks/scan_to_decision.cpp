@@ -1,9 +1,10 @@
 /// What an explorer's loop costs from a scan to the command that follows from it, over a whole mission.
 ///
-/// A robot explores the embedded floor, as kth_explorer does by default, on one thread, until it finds nothing more to
-/// do. A tick is a scan and the five increments of odometry before it: ten a second. One iteration is one mission; its
-/// time is that of the explorer and the simulator together, the counters are the explorer's parts alone, a tick each:
-/// their medians and means. `choose` is decide() where it decided anew, once in many ticks.
+/// A robot explores the embedded floor, as kth_explorer does by default, on one thread, until it finds
+/// nothing more to do. A tick is a scan and the five increments of odometry before it: ten a second. One
+/// iteration is one mission; its time is that of the explorer and the simulator together, the counters are
+/// the explorer's parts alone, a tick each: their medians and means. `choose` is decide() where it decided
+/// anew, once in many ticks.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -28,7 +29,9 @@ class Part {
     struct Stop {
       Part& part;
       std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-      ~Stop() { part.tick_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+      ~Stop() {
+        part.tick_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      }
     } stop{*this};
     return run();
   }

@@ -47,11 +47,12 @@ struct MrptDrive::Data {
   double range_max_m;
 };
 
-MrptDrive::MrptDrive(const std::vector<PlanarScan>& scans, double range_max_m) : data_(std::make_unique<Data>()) {
+MrptDrive::MrptDrive(const std::vector<PlanarScan>& scans, double range_max_m)
+    : data_(std::make_unique<Data>()) {
   data_->range_max_m = range_max_m;
   for (const PlanarScan& from : scans) {
-    // A beam that met nothing becomes a valid reading beyond the largest distance of insertion: MRPT then frees the
-    // way up to that distance and sets no end. An invalid one would be freed for half of it only.
+    // A beam that met nothing becomes a valid reading beyond the largest distance of insertion: MRPT then
+    // frees the way up to that distance and sets no end. An invalid one would be freed for half of it only.
     constexpr double beyond_m = 1.0;
     // The grid spaces beams by the aperture over their number.
     CObservation2DRangeScan to =
@@ -71,9 +72,9 @@ MrptDrive::~MrptDrive() = default;
 std::size_t MrptDrive::size() const { return data_->scans.size(); }
 
 std::int64_t MrptDrive::touches(std::size_t n, double resolution_m) const {
-  // What a scan adds up to in the cells, a pass worth so many steps of their 8 bits, and a hit the same whatever a
-  // pass is worth: the difference between two worths is the number of passes. Few beams at a time, so that no cell
-  // overflows.
+  // What a scan adds up to in the cells, a pass worth so many steps of their 8 bits, and a hit the same
+  // whatever a pass is worth: the difference between two worths is the number of passes. Few beams at a time,
+  // so that no cell overflows.
   constexpr std::size_t beams_at_once = 60;
   const int unknown = COccupancyGridMap2D::p2l(0.5F);
   const auto sum_of_changes = [&](const CObservation2DRangeScan& scan, int pass_worth) {
@@ -117,11 +118,12 @@ MrptGrid::MrptGrid(double resolution_m, double range_max_m)
 MrptGrid::MrptGrid(double resolution_m, int width, int height, const std::vector<std::uint8_t>& walls)
     : data_(std::make_unique<Data>()) {
   const auto side_m = static_cast<float>(resolution_m);
-  data_->grid.setSize(0.0F, static_cast<float>(width * resolution_m), 0.0F, static_cast<float>(height * resolution_m),
-                      side_m);
+  data_->grid.setSize(0.0F, static_cast<float>(width * resolution_m), 0.0F,
+                      static_cast<float>(height * resolution_m), side_m);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const auto at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       data_->grid.setCell(x, y, walls[at] != 0 ? 0.0F : 1.0F);
     }
   }

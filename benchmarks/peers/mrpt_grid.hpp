@@ -1,5 +1,6 @@
-/// MRPT's occupancy grid behind plain types. Its headers decide how objects are aligned by the instructions that
-/// are compiled for, so all that includes them is compiled as its library was, whatever the benchmarks' own flags.
+/// MRPT's occupancy grid behind plain types. Its headers decide how objects are aligned by the instructions
+/// that are compiled for, so all that includes them is compiled as its library was, whatever the benchmarks'
+/// own flags.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +28,8 @@ class MrptDrive {
 
   [[nodiscard]] std::size_t size() const;
 
-  /// How many cells all beams of the scan `n` touch, counted one by one by each beam, on a grid of that resolution.
+  /// How many cells all beams of the scan `n` touch, counted one by one by each beam, on a grid of that
+  /// resolution.
   [[nodiscard]] std::int64_t touches(std::size_t n, double resolution_m) const;
 
  private:
@@ -36,7 +38,8 @@ class MrptDrive {
   std::unique_ptr<Data> data_;
 };
 
-/// COccupancyGridMap2D with rays that do not widen; all other insertion options but the range are its defaults.
+/// COccupancyGridMap2D with rays that do not widen; all other insertion options but the range are its
+/// defaults.
 class MrptGrid {
  public:
   /// A grid of little extent, which grows.
