@@ -28,7 +28,7 @@ class Results:
     def __init__(self, folder):
         self.runs = {}  # preset -> program -> benchmark -> what -> values
         self.errors = []
-        for file in sorted(folder.glob("*/*.json")):
+        for file in sorted(folder.glob("benchmark-*/*.json")):
             content = json.loads(file.read_text())
             program = self.runs.setdefault(file.parent.name, {}).setdefault(file.stem, {})
             # As they are written in the program, not in the order in which they took turns.
@@ -48,8 +48,14 @@ class Results:
         if (file := folder / "machine.txt").exists():
             self.machine = dict(line.split(": ", 1) for line in file.read_text().splitlines() if ": " in line)
         self.compile_time = file.read_text().strip() if (file := folder / "compile_time.txt").exists() else ""
-        self.real_time_factors = [json.loads(file.read_text())["real_time_factor"]
-                                  for file in sorted(folder.glob("kth_explorer.*.json"))]
+        self.real_time_factors = []
+        self.processor_time_factors = []  # what they would be if the machine did nothing else
+        for file in sorted(folder.glob("kth_explorer.*.json")):
+            metrics = json.loads(file.read_text())
+            self.real_time_factors.append(metrics["real_time_factor"])
+            if (times := file.with_suffix(".processor_s")).exists():
+                seconds = sum(float(part) for part in times.read_text().split())
+                self.processor_time_factors.append(metrics["duration_s"] / seconds)
 
     def program(self, preset, program):
         return self.runs.get(preset, {}).get(program, {})
@@ -256,10 +262,17 @@ def plots(results, output, date):
     return [name for name in drawn if name]
 
 
-def speed_up_note(results):
+def notes_on_load(results):
+    """What the machine's other work did to the bars that are measured in time on the wall."""
+    notes = []
     control = results.ratio(NATIVE, "candidate", "control/1_threads", "control/2_threads")
-    return f"Arithmetic that shares nothing gained a factor of {control:.2f} from a second thread in the same run.\n" \
-        if control else ""
+    if control:
+        notes.append(f"Arithmetic that shares nothing became {control:.2f} times as fast by a second thread in the "
+                     "same run: no more can be asked of candidates.")
+    if results.processor_time_factors:
+        notes.append(f"By the processor's time kth_explorer runs {statistics.median(results.processor_time_factors):.0f} "
+                     "times as fast as real time, reading and drawing included.")
+    return " ".join(notes) + "\n" if notes else ""
 
 
 def report(results, output):
@@ -269,8 +282,8 @@ def report(results, output):
             "Ratios are those of medians of the same program in the same run.\n",
             table(["machine", ""], [[key, value] for key, value in results.machine.items() if key != "date"]),
             "## Bars\n", table(["what", "bar", "measured", ""], bar_rows(results)),
-            speed_up_note(results),
-            "OctoMap keeps one layer of an octree where the library and MRPT keep a dense plane.\n"]
+            notes_on_load(results),
+            "OctoMap keeps one layer of an octree, the library and MRPT a dense plane.\n"]
     if results.errors:
         part += ["Failed:\n", "\n".join(f"- {error}" for error in dict.fromkeys(results.errors)) + "\n"]
     if results.program(NATIVE, "cell_update"):
