@@ -270,8 +270,9 @@ def notes_on_load(results):
         notes.append(f"Arithmetic that shares nothing became {control:.2f} times as fast by a second thread in the "
                      "same run: no more can be asked of candidates.")
     if results.processor_time_factors:
-        notes.append(f"By the processor's time kth_explorer runs {statistics.median(results.processor_time_factors):.0f} "
-                     "times as fast as real time, reading and drawing included.")
+        factor = statistics.median(results.processor_time_factors)
+        notes.append(f"By the processor's time kth_explorer runs {factor:.0f} times as fast as real time, reading and "
+                     "drawing included.")
     return " ".join(notes) + "\n" if notes else ""
 
 
