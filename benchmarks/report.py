@@ -268,11 +268,11 @@ def notes_on_load(results):
     control = results.ratio(NATIVE, "candidate", "control/1_threads", "control/2_threads")
     if control:
         def at_best(name):
-            one, two = (min(results.program(NATIVE, "candidate")[f"{name}/{count}_threads"]["time_s"]) for count in (1, 2))
-            return one / two
+            figures = results.program(NATIVE, "candidate")
+            return min(figures[f"{name}/1_threads"]["time_s"]) / min(figures[f"{name}/2_threads"]["time_s"])
 
-        notes.append(f"Arithmetic that shares nothing became {control:.2f} times as fast by a second thread in the same "
-                     "run: no more can be asked of candidates. The fastest repetitions alone: "
+        notes.append(f"Arithmetic that shares nothing became {control:.2f} times as fast by a second thread in the "
+                     "same run: no more can be asked of candidates. The fastest repetitions alone: "
                      f"{at_best('control'):.2f}, and {at_best('evaluate/40_candidates'):.2f} for candidates.")
     if results.processor_time_factors:
         factor = statistics.median(results.processor_time_factors)
