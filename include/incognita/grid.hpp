@@ -13,4 +13,5 @@
 #include "incognita/grid/grid.hpp"
 #include "incognita/grid/lattice.hpp"
 #include "incognita/grid/segment_walk.hpp"
+#include "incognita/grid/tile_neighbors.hpp"
 #include "incognita/grid/traversal.hpp"
