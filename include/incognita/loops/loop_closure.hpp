@@ -43,6 +43,9 @@ class LoopClosure {
     double age_share_min = 0.1;         ///< of a scan's beams must meet old surfaces, and at least so many new ones, in (0, 0.5]
     int age_gap_pieces = 30;            ///< between old and new, >= 1
     int pieces_between_solutions = 10;  ///< >= 1
+    /// Solved anew when the fits of a scan to old surfaces and to new ones differ by more than this, for the robot or for what it
+    /// sees 5 m away: while they agree, a solution only moves pieces by the noise of the fits. >= 0
+    double solution_shift_m = 0.01;
     double redraw_shift_m = 0.05;       ///< a belief is drawn again when it is off by this much: half a cell of 0.1 m
     int scans_max = 20000;              ///< kept at most, see KeptScans: 30 MB with 360 beams
 
@@ -51,6 +54,7 @@ class LoopClosure {
       require(age_share_min > 0.0 && age_share_min <= 0.5, "LoopClosure", "age_share_min", age_share_min, "in (0, 0.5]");
       require(age_gap_pieces >= 1, "LoopClosure", "age_gap_pieces", age_gap_pieces, ">= 1");
       require(pieces_between_solutions >= 1, "LoopClosure", "pieces_between_solutions", pieces_between_solutions, ">= 1");
+      require_non_negative("LoopClosure", "solution_shift_m", solution_shift_m);
       require_positive("LoopClosure", "redraw_shift_m", redraw_shift_m);
       require(scans_max >= 2, "LoopClosure", "scans_max", scans_max, ">= 2");
     }
@@ -123,8 +127,9 @@ class LoopClosure {
     if (const int first_new = first_after_gap(met, keyframe.scan.size()); first_new == 0) {
       link_to_surfaces(piece, keyframe, keyframe.pose, registration, surfaces, {drift, 0, piece});
     } else {
-      if (link_to_age(piece, keyframe, registration, surfaces, {drift, 0, first_new})) is_solution_due_ = true;
-      (void)link_to_age(piece, keyframe, registration, surfaces, {drift, first_new, piece});
+      const std::optional<Pose2> by_old = link_to_age(piece, keyframe, registration, surfaces, {drift, 0, first_new});
+      const std::optional<Pose2> by_new = link_to_age(piece, keyframe, registration, surfaces, {drift, first_new, piece});
+      if (by_old && shift_m(*by_old, by_new.value_or(keyframe.pose)) > params_.solution_shift_m) is_solution_due_ = true;
     }
     if (!is_solution_due_ || piece < solved_at_ + params_.pieces_between_solutions) return unmoved;
     return solve(piece, surfaces, drift);
@@ -234,17 +239,17 @@ class LoopClosure {
     return std::max<std::size_t>(1, static_cast<std::size_t>(params_.age_share_min * static_cast<double>(beams)));
   }
 
-  /// Registers the scan to the surfaces of one age and measures `piece` against theirs from there. Returns whether there
-  /// were enough of them.
-  bool link_to_age(int piece, const Keyframe& keyframe, const RegistrationParams& registration,
+  /// Registers the scan to the surfaces of one age and measures `piece` against theirs from there. Returns where that is; nothing
+  /// where there were not enough of them.
+  std::optional<Pose2> link_to_age(int piece, const Keyframe& keyframe, const RegistrationParams& registration,
                    const SurfaceMap<2>& surfaces, const SurfacesOfAge& of_age) {
     RegistrationParams alone = registration;
     alone.iterations = std::max(registration.iterations, age_iterations);
     const PoseBelief prior{keyframe.pose, diagonal_covariance(0.05 * 0.05, 0.05 * 0.05, 0.02 * 0.02)};
     const Registration found = register_scan(prior, keyframe.scan, surfaces, alone, of_age);
-    if (found.associations < beams_of_an_age(keyframe.scan.size())) return false;
+    if (found.associations < beams_of_an_age(keyframe.scan.size())) return std::nullopt;
     link_to_surfaces(piece, keyframe, found.belief.pose, registration, surfaces, of_age);
-    return true;
+    return found.belief.pose;
   }
 
   /// Measures `piece` against the pieces whose surfaces its scan meets from `pose`, which is where it would have been taken
@@ -275,6 +280,11 @@ class LoopClosure {
       const Eigen::Vector3d measured = drift_between(of.piece, piece, of_age.drift) + off;
       graph_.add_link(of.piece, piece, information, information * measured + tempered * of.information.vector);
     }
+  }
+
+  /// How far two poses are from each other, and what is seen 5 m away from them.
+  [[nodiscard]] static double shift_m(const Pose2& a, const Pose2& b) {
+    return distance(a.position(), b.position()) + 5.0 * std::abs(angle_between_rad(a.yaw_rad, b.yaw_rad));
   }
 
   [[nodiscard]] static Eigen::Vector3d drift_between(int from, int to, const MapDrift& drift) {
