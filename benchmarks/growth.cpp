@@ -152,18 +152,18 @@ void beams(benchmark::State& state, std::size_t count) {
 
 int main(int argc, char** argv) {
   for (const int side : {250, 500, 800, 1000, 2000, 4000}) {
-    const std::string where = "/" + std::to_string(side) + "x" + std::to_string(side);
-    const auto add = [&](const std::string& name, Part part) {
-      benchmark::RegisterBenchmark(("area/" + name + where).c_str(), [=](benchmark::State& state) {
+    const std::string count = std::to_string(side);
+    const auto add = [&](const char* name, Part part) {
+      benchmark::RegisterBenchmark(std::string(name).append("/").append(count).append("x").append(count).c_str(), [=](benchmark::State& state) {
         one_scan(state, side, part);
       })->UseManualTime()->Unit(benchmark::kMicrosecond);
     };
-    add("update", Part::update);
-    add("follow", Part::follow);
-    add("anew", Part::anew);
+    add("area/update", Part::update);
+    add("area/follow", Part::follow);
+    add("area/anew", Part::anew);
   }
   for (const std::size_t count : {45, 90, 180, 360, 720, 1440}) {
-    benchmark::RegisterBenchmark(("beams/update/" + std::to_string(count)).c_str(), [=](benchmark::State& state) {
+    benchmark::RegisterBenchmark(std::string("beams/update/").append(std::to_string(count)).c_str(), [=](benchmark::State& state) {
       beams(state, count);
     })->Unit(benchmark::kMicrosecond);
   }

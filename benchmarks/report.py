@@ -39,7 +39,7 @@ class Results:
                 if run.get("error_occurred"):
                     self.errors.append(f"{file.stem} ({file.parent.name}), {name}: {run['error_message']}")
                     continue
-                clock = "real_time" if "/real_time" in run["run_name"] else "cpu_time"
+                clock = "real_time" if re.search("/(real|manual)_time", run["run_name"]) else "cpu_time"
                 figures = {"time_s": run[clock] * SECONDS_PER[run["time_unit"]]}
                 figures |= {key: value for key, value in run.items() if key not in NOT_COUNTERS}
                 for what, value in figures.items():
@@ -129,6 +129,9 @@ def bars(results):
         ("Evaluation of 40 candidates, one thread against two", "at least", 1.85,
          [("40", results.ratio(NATIVE, "candidate", "evaluate/40_candidates/1_threads",
                                "evaluate/40_candidates/2_threads"))]),
+        ("Occupancy, frontier and information after a scan, on 4000 x 4000 cells against 800 x 800", "at most", 1.2,
+         [("follow", results.ratio(NATIVE, "growth", "area/follow/4000x4000", "area/follow/800x800")),
+          ("map and obstacle layer", results.ratio(NATIVE, "growth", "area/update/4000x4000", "area/update/800x800"))]),
         ("kth_explorer on one thread, times real time, no -march", "at least", 200.0,
          [("default run", statistics.median(factors) if factors else None)]),
         ("Parsing everything against Eigen and the standard headers", "at most", 1.4,
