@@ -182,7 +182,7 @@ double slow_gain(Map<Cell> map, const Measure& measure, PoseBelief belief, const
 template <class Cell>
 std::size_t changed_count(const Overlay<Cell>& overlay) {
   std::size_t count = 0;
-  overlay.for_each_changed([&](const auto&...) { ++count; });
+  overlay.for_each_changed_cell([&](const auto&) { ++count; });
   return count;
 }
 
@@ -302,7 +302,7 @@ TEST_CASE("far before the end of its beams a more certain pose clears unknown ce
   std::size_t compared = 0;
   std::size_t strictly = 0;
   REQUIRE(changed_count(certain.overlay) == changed_count(uncertain.overlay));
-  certain.overlay.for_each_changed([&](const Index<2>& index, const TBayes::State&, const TBayes::State&) {
+  certain.overlay.for_each_changed_cell([&](const Index<2>& index) {
     const double distance_m = (map.lattice().center_m(index) - goal).norm();
     const double residual_m = params.range_max_m - distance_m;
     if (residual_m <= 0.0 || residual_m * residual_m < s_max_m2) return;

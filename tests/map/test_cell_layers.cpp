@@ -22,6 +22,8 @@ void require_layers_of(const Map<Cell>& map, const Map<Cell>& before) {
     REQUIRE(layers.heeding.get(index) == !map.cell().ignores_passes(state));
     REQUIRE(layers.blocked.get(index) == (map.log_odds(offset) > map.blocked_above()));
     const bool is_changed = layers.changed.get(index);
+    if (is_changed || before.layers().written.get(index)) REQUIRE(layers.written.get(index));
+    if (!layers.written.get(index)) REQUIRE(map.log_odds(offset) == 0.0F);
     if (map.log_odds(index) != before.log_odds(index)) REQUIRE(is_changed);
     changed += static_cast<std::size_t>(is_changed);
   }

@@ -23,7 +23,7 @@ void require_same_log_odds(const Overlay<Cell>& overlay, const Map<Cell>& map) {
 template <class Cell>
 std::vector<Index<2>> changed_cells(const Overlay<Cell>& overlay) {
   std::vector<Index<2>> changed;
-  overlay.for_each_changed([&](const Index<2>& index, const auto&, const auto&) { changed.push_back(index); });
+  overlay.for_each_changed_cell([&](const Index<2>& index) { changed.push_back(index); });
   return changed;
 }
 
@@ -64,12 +64,20 @@ void compare_with_copy(const Cell& policy, int rounds) {
     REQUIRE(&overlay.map() == &map);
 
     Grid<std::uint8_t, 2> changed(map.lattice(), map.grid().box(), 0);
-    overlay.for_each_changed([&](const Index<2>& index, const auto& before, const auto& after) {
+    std::size_t states = 0;
+    std::size_t cells = 0;
+    overlay.for_each_changed_cell([&](const Index<2>& index) {
       REQUIRE(changed.value(index) == 0);
       changed.set(index, 1);
+      ++cells;
+    });
+    overlay.for_each_changed_but_cleared([&](const Index<2>& index, const auto& before, const auto& after) {
+      REQUIRE(changed.value(index) == 1);
+      ++states;
       REQUIRE(Cell::log_odds(before) == map.log_odds(index));
       REQUIRE(Cell::log_odds(after) == copy.log_odds(index));
     });
+    REQUIRE(states + overlay.cleared_count() == cells);
     for (Offset offset = 0; offset < static_cast<Offset>(map.grid().size()); ++offset) {
       if (copy.log_odds(offset) != map.log_odds(offset)) REQUIRE(changed[offset] == 1);
     }

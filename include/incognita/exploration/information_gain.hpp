@@ -130,8 +130,13 @@ template <CellPolicy Cell, class Filter>
   const std::vector<Eigen::Vector2d> poses = resample_path(path, params.pose_spacing_m);
   for (std::size_t i = 1; i < poses.size(); ++i) drive_and_scan(poses[i]);
 
+  const Overlay<Cell>& overlay = workspace.overlay;
   double gain_nats = 0.0;
-  workspace.overlay.for_each_changed([&](const Index<2>&, const auto& before, const auto& after) {
+  if constexpr (ClearingPolicy<Cell>) {
+    const double cleared_nats = entropy(Cell::log_odds(typename Cell::State{})) - entropy(Cell::log_odds(overlay.map().cell().cleared()));
+    gain_nats += static_cast<double>(overlay.cleared_count()) * cleared_nats;
+  }
+  overlay.for_each_changed_but_cleared([&](const Index<2>&, const auto& before, const auto& after) {
     gain_nats += entropy(Cell::log_odds(before)) - entropy(Cell::log_odds(after));
   });
   return gain_nats;

@@ -10,16 +10,17 @@ namespace incognita {
 /// Bits over the cells of a map. All layers have the same tiles, so the offset of a tile's word in one is its offset in all.
 struct CellLayers {
   explicit CellLayers(const Lattice<2>& lattice)
-      : heeding(lattice, true), blocked(lattice, false), changed(lattice, false) {}
+      : heeding(lattice, true), blocked(lattice, false), written(lattice, false), changed(lattice, false) {}
 
   CellBits heeding;                     ///< a pass may change the cell; most cells of most scans ignore passes
   CellBits blocked;                     ///< predicted rays end here
+  CellBits written;                     ///< by any scan; the states of the others are as they were made
   CellBits changed;                     ///< written since changes were last forgotten
   std::vector<Index<2>> changed_tiles;  ///< the tiles with a cell in `changed`, in the order of their first change
 
   /// Makes room for the cells of a box.
   void grow_to_include(const IndexBox<2>& cells) {
-    for (CellBits* layer : {&heeding, &blocked, &changed}) layer->grow_to_include(cells);
+    for (CellBits* layer : {&heeding, &blocked, &written, &changed}) layer->grow_to_include(cells);
   }
 
   /// Marks cells of a tile as changed; returns those that were not.
@@ -28,6 +29,7 @@ struct CellLayers {
     if (word == 0) changed_tiles.push_back(tile);
     const CellBits::Word fresh = cells & ~word;
     word |= cells;
+    written.tiles()[place] |= cells;
     return fresh;
   }
 

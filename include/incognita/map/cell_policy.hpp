@@ -35,4 +35,13 @@ concept CellPolicy =
       { P::log_odds(seen) } -> std::same_as<float>;
     };
 
+/// A policy may say what a pass far before the surface leaves of a cell that was never written, so that maps clear many of them
+/// at once. Law: a pass of State{} with a residual of at least clearing_residual_m(beam) leaves cleared(), to the bit, and
+/// cleared() ignores passes.
+template <class P>
+concept ClearingPolicy = CellPolicy<P> && requires(const P& policy, const typename P::Beam& beam) {
+  { policy.cleared() } -> std::same_as<typename P::State>;
+  { policy.clearing_residual_m(beam) } -> std::same_as<float>;
+};
+
 }  // namespace incognita

@@ -95,8 +95,7 @@ class Map {
     advance_stamp();
     if constexpr (Dim == 2) {
       layers_.forget_changes();
-      beams_.write(cell_, layers_, params_.blocked_above, stamp_,
-                   [this](Offset, const Index<2>& tile, CellBits::Word) { return tile_states(grid_.values().data(), tile); });
+      beams_.write(cell_, layers_, params_.blocked_above, stamp_, Access{*this});
     } else {
       beams_.write(cell_, grid_, stamp_);
     }
@@ -114,6 +113,19 @@ class Map {
  private:
   struct NoLayers {
     explicit NoLayers(const Lattice<Dim>&) {}
+  };
+
+  /// What MapBeams::write asks for.
+  struct Access {
+    Map& map;
+
+    [[nodiscard]] auto open(Offset /*place*/, const Index<2>& tile, CellBits::Word /*cells*/, CellBits::Word /*fresh*/) {
+      return map.tile_states(map.grid_.values().data(), tile);
+    }
+    void clear(Offset /*place*/, const Index<2>& tile, CellBits::Word cells) {
+      const auto states = map.tile_states(map.grid_.values().data(), tile);
+      for (CellBits::Word left = cells; left != 0; left &= left - 1U) states(std::countr_zero(left)) = map.cell_.cleared();
+    }
   };
 
   template <class States>

@@ -13,7 +13,7 @@
 namespace incognita {
 
 /// Cells of a plane are copied from the map when a predicted scan first changes them. Starting over costs as much as what
-/// was changed. Memory: half a byte a cell of the map's box, and a tile of 64 states for each tile changed at once, kept for
+/// was changed. Memory: 6 bits a cell of the map's box, and a tile of 64 states for each tile changed at once, kept for
 /// the next use. One overlay a thread; the map must not change between look_at and the last use.
 template <CellPolicy Cell>
 class Overlay {
@@ -25,7 +25,9 @@ class Overlay {
     map_ = &map;
     layers_ = map.layers();
     layers_->forget_changes();
-    slots_.assign(layers_->changed.tiles().size(), 0);
+    slots_.assign(layers_->changed.tiles().size(), no_slot);
+    cleared_.assign(layers_->changed.tiles().size(), 0);
+    cleared_count_ = 0;
     used_ = 0;
     stamp_ = map.stamp();
   }
@@ -38,7 +40,11 @@ class Overlay {
       const Offset place = tiles.offset_of(tile);
       layers_->heeding.tiles()[place] = seen.heeding.tiles()[place];
       layers_->blocked.tiles()[place] = seen.blocked.tiles()[place];
+      layers_->written.tiles()[place] = seen.written.tiles()[place];
+      slots_[static_cast<std::size_t>(place)] = no_slot;
+      cleared_[static_cast<std::size_t>(place)] = 0;
     }
+    cleared_count_ = 0;
     layers_->forget_changes();
     used_ = 0;
     stamp_ = map_->stamp();
@@ -53,24 +59,38 @@ class Overlay {
   [[nodiscard]] float log_odds(const Index<2>& index) const {
     if (!map_->grid().contains(index)) return 0.0F;
     if (!layers_->changed.get(index)) return map_->log_odds(index);
-    const Index<2> tile = CellBits::tile_of(index);
-    const auto slot = slots_[static_cast<std::size_t>(layers_->changed.tiles().offset_of(tile))];
-    return Cell::log_odds(states_[slot + static_cast<std::size_t>(std::countr_zero(CellBits::mask_of(index)))]);
+    const auto place = static_cast<std::size_t>(layers_->changed.tiles().offset_of(CellBits::tile_of(index)));
+    const CellBits::Word cell = CellBits::mask_of(index);
+    if constexpr (ClearingPolicy<Cell>) {
+      if ((cleared_[place] & cell) != 0) return Cell::log_odds(map_->cell().cleared());
+    }
+    return Cell::log_odds(states_[slots_[place] + static_cast<std::size_t>(std::countr_zero(cell))]);
   }
 
-  /// Calls visit(index, before, after) for each changed cell with its states in the map and here, tile by tile.
+  /// How many of the changed cells were never written and are now beyond doubt free, policy.cleared(). That is all there is to
+  /// know of them.
+  [[nodiscard]] std::size_t cleared_count() const { return cleared_count_; }
+
+  /// Calls visit(index, before, after) for each other changed cell with its states in the map and here, tile by tile.
   template <class Visit>
-  void for_each_changed(Visit&& visit) const {
-    const Grid<CellBits::Word, 2>& changed = layers_->changed.tiles();
-    for (const Index<2>& tile : layers_->changed_tiles) {
-      const Offset place = changed.offset_of(tile);
+  void for_each_changed_but_cleared(Visit&& visit) const {
+    for_each_changed([&](const Index<2>& tile, CellBits::Word changed, CellBits::Word cleared, const State* after) {
       const auto before = map_->states_of(tile);
-      const State* const after = states_.data() + slots_[static_cast<std::size_t>(place)];
-      for (CellBits::Word left = changed[place]; left != 0; left &= left - 1U) {
+      for (CellBits::Word left = changed & ~cleared; left != 0; left &= left - 1U) {
         const int bit = std::countr_zero(left);
         visit(CellBits::cell_of(tile, bit), before(bit), after[bit]);
       }
-    }
+    });
+  }
+
+  /// Calls visit(index) for each changed cell, tile by tile.
+  template <class Visit>
+  void for_each_changed_cell(Visit&& visit) const {
+    for_each_changed([&](const Index<2>& tile, CellBits::Word changed, CellBits::Word, const State*) {
+      for (CellBits::Word left = changed; left != 0; left &= left - 1U) {
+        visit(CellBits::cell_of(tile, std::countr_zero(left)));
+      }
+    });
   }
 
   /// Writes a predicted scan, as Map::update would. Throws std::length_error when it reaches out of the map's box
@@ -82,23 +102,56 @@ class Overlay {
       throw std::length_error("Overlay::update: a predicted scan reaches out of the map's box; see Map::reserve");
     }
     ++stamp_;
-    beams_.write(map_->cell(), *layers_, map_->blocked_above(), stamp_,
-                 [this](Offset place, const Index<2>& tile, CellBits::Word fresh) { return states_of(place, tile, fresh); });
+    beams_.write(map_->cell(), *layers_, map_->blocked_above(), stamp_, Access{*this});
   }
 
  private:
-  /// Access to the states of a tile, by bit; those that are fresh are copied from the map.
-  [[nodiscard]] auto states_of(Offset place, const Index<2>& tile, CellBits::Word fresh) {
-    std::uint32_t& slot = slots_[static_cast<std::size_t>(place)];
+  static constexpr std::uint32_t no_slot = static_cast<std::uint32_t>(-1);
+
+  /// What MapBeams::write asks for.
+  struct Access {
+    Overlay& overlay;
+
+    [[nodiscard]] auto open(Offset place, const Index<2>& tile, CellBits::Word cells, CellBits::Word fresh) {
+      return overlay.open(static_cast<std::size_t>(place), tile, cells, fresh);
+    }
+    void clear(Offset place, const Index<2>& /*tile*/, CellBits::Word cells) {
+      overlay.cleared_[static_cast<std::size_t>(place)] |= cells;
+      overlay.cleared_count_ += static_cast<std::size_t>(std::popcount(cells));
+    }
+  };
+
+  /// Access to the states of a tile, by bit; of those about to be written, fresh ones are copied from the map.
+  [[nodiscard]] auto open(std::size_t place, const Index<2>& tile, CellBits::Word cells, CellBits::Word fresh) {
+    std::uint32_t& slot = slots_[place];
+    if (slot == no_slot) slot = open_slot();
     if (fresh != 0) {
-      if (fresh == layers_->changed.tiles()[place]) slot = open_slot();  // nothing of the tile was changed before
       const auto seen = map_->states_of(tile);
       for (CellBits::Word left = fresh; left != 0; left &= left - 1U) {
         const int bit = std::countr_zero(left);
         states_[slot + static_cast<std::size_t>(bit)] = seen(bit);
       }
     }
+    if constexpr (ClearingPolicy<Cell>) {
+      const CellBits::Word cleared = cleared_[place] & cells;
+      for (CellBits::Word left = cleared; left != 0; left &= left - 1U) {
+        states_[slot + static_cast<std::size_t>(std::countr_zero(left))] = map_->cell().cleared();
+      }
+      cleared_[place] &= ~cleared;
+      cleared_count_ -= static_cast<std::size_t>(std::popcount(cleared));
+    }
     return [states = states_.data() + slot](int bit) -> State& { return states[bit]; };
+  }
+
+  /// visit(tile, changed cells, those of them that are cleared, the states of the others by bit)
+  template <class Visit>
+  void for_each_changed(Visit&& visit) const {
+    const Grid<CellBits::Word, 2>& changed = layers_->changed.tiles();
+    for (const Index<2>& tile : layers_->changed_tiles) {
+      const Offset place = changed.offset_of(tile);
+      const std::uint32_t slot = slots_[static_cast<std::size_t>(place)];
+      visit(tile, changed[place], cleared_[static_cast<std::size_t>(place)], states_.data() + (slot == no_slot ? 0 : slot));
+    }
   }
 
   [[nodiscard]] std::uint32_t open_slot() {
@@ -111,7 +164,9 @@ class Overlay {
   const Map<Cell, 2>* map_ = nullptr;
   MapBeams<Cell, 2> beams_;            // scratch
   std::optional<CellLayers> layers_;
-  std::vector<std::uint32_t> slots_;   // where the states of a changed tile begin
+  std::vector<std::uint32_t> slots_;     // where the states of a changed tile begin, by the tile's place
+  std::vector<CellBits::Word> cleared_;  // cells that have no state of their own, likewise
+  std::size_t cleared_count_ = 0;
   std::vector<State> states_;
   std::size_t used_ = 0;  // of states_
   ScanStamp stamp_ = 0;

@@ -50,7 +50,8 @@ class MapBeams {
       const double variance_m2 = std::max(0.0, direction.dot(position_covariance_m2 * direction));
       const double length_m = is_hit ? range_m + push_m : range_m;
       const Point<Dim> end = lattice.to_cells(origin_m + direction * length_m);
-      beams_.push_back({end, range_m, is_hit, policy.beam(variance_m2), Walk(origin_, end, !is_hit)});
+      const typename Cell::Beam constants = policy.beam(variance_m2);
+      beams_.push_back({end, range_m, is_hit, clearing_reach(policy, constants, range_m), constants, Walk(origin_, end, !is_hit)});
     }
     report_ = {beams_.size(), scan.size() - beams_.size()};
   }
@@ -86,10 +87,11 @@ class MapBeams {
   }
 
   /// The same in the plane, by way of the cells' layers, which are kept up to date: of cells that ignore passes nothing is
-  /// looked at but a bit. `cells_of(place, tile, fresh)` gives access to a tile's states by bit, of which `fresh` are accessed
-  /// for the first time since changes were forgotten. O(cells passed that do not ignore passes, and tiles passed).
-  template <class CellsOf>
-  void write(const Cell& policy, CellLayers& layers, float blocked_above, ScanStamp stamp, CellsOf&& cells_of)
+  /// looked at but a bit. `states` gives access: states.open(place, tile, cells, fresh) to a tile's states by bit, of which
+  /// `cells` are about to be written, `fresh` for the first time since changes were forgotten; states.clear(place, tile, cells)
+  /// makes them policy.cleared(). O(cells passed that do not ignore passes, and tiles passed).
+  template <class States>
+  void write(const Cell& policy, CellLayers& layers, float blocked_above, ScanStamp stamp, States&& states)
     requires(Dim == 2)
   {
     using Word = CellBits::Word;
@@ -101,7 +103,8 @@ class MapBeams {
       const Index<2> tile = CellBits::tile_of(end);
       const Offset place = heeding.offset_of(tile);
       const Word cell = CellBits::mask_of(end);
-      typename Cell::State& state = cells_of(place, tile, layers.mark_changed(place, tile, cell))(std::countr_zero(cell));
+      const Word fresh = layers.mark_changed(place, tile, cell);
+      typename Cell::State& state = states.open(place, tile, cell, fresh)(std::countr_zero(cell));
       policy.hit(state, beam.constants, residual_m(end, beam.range_m + push_m_), stamp);
       heeding[place] = policy.ignores_passes(state) ? heeding[place] & ~cell : heeding[place] | cell;
       blocked[place] = Cell::log_odds(state) > blocked_above ? blocked[place] | cell : blocked[place] & ~cell;
@@ -138,14 +141,25 @@ class MapBeams {
       }
     }
     for (std::size_t i = 0; i < met_count; ++i) {
-      const auto& [place, tile, cells] = met_[i].cells;
+      const auto& [place, tile, found] = met_[i].cells;
       const Beam& beam = beams_[met_[i].beam];
-      const auto states = cells_of(place, tile, layers.mark_changed(place, tile, cells));
+      Word cells = found & heeding[place];  // some may have been settled since
+      if constexpr (ClearingPolicy<Cell>) {
+        const Word unwritten = cells & ~layers.written.tiles()[place];
+        if (unwritten != 0 && farthest2(tile) <= beam.clearing_reach2) {
+          static_cast<void>(layers.mark_changed(place, tile, unwritten));
+          states.clear(place, tile, unwritten);
+          heeding[place] &= ~unwritten;
+          cells &= ~unwritten;
+        }
+      }
+      if (cells == 0) continue;
+      const auto state_of = states.open(place, tile, cells, layers.mark_changed(place, tile, cells));
       Word ignoring = 0;
       Word blocking = 0;
       for (Word left = cells; left != 0; left &= left - 1U) {
         const int bit = std::countr_zero(left);
-        typename Cell::State& state = states(bit);
+        typename Cell::State& state = state_of(bit);
         policy.pass(state, beam.constants, residual_m(CellBits::cell_of(tile, bit), beam.range_m), stamp);
         ignoring |= static_cast<Word>(policy.ignores_passes(state)) << bit;
         blocking |= static_cast<Word>(Cell::log_odds(state) > blocked_above) << bit;
@@ -165,6 +179,7 @@ class MapBeams {
     Point<Dim> end;  // in lattice coordinates
     double range_m;  // as measured
     bool is_hit;
+    float clearing_reach2;  // cells whose centres are nearer than this, in cells, squared, are cleared if they were never written
     typename Cell::Beam constants;
     Walk walk;
   };
@@ -173,6 +188,25 @@ class MapBeams {
     Index<Dim> index;
     for (int axis = 0; axis < Dim; ++axis) index[axis] = detail::floor_to_int(at[axis]);
     return index;
+  }
+
+  [[nodiscard]] float clearing_reach(const Cell& policy, const typename Cell::Beam& constants, double range_m) const {
+    if constexpr (ClearingPolicy<Cell>) {
+      const float reach = (static_cast<float>(range_m) - policy.clearing_residual_m(constants)) / resolution_m_;
+      return reach > 0.0F ? reach * reach : -1.0F;
+    }
+    return -1.0F;
+  }
+
+  /// The squared distance to the farthest centre of a tile's cells, in cells.
+  [[nodiscard]] float farthest2(const Index<2>& tile) const {
+    float squared = 0.0F;
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto first = static_cast<float>(tile[axis] * CellBits::tile_side + 0.5 - origin_[axis]);
+      const float farther = std::max(-first, first + static_cast<float>(CellBits::tile_side - 1));
+      squared += farther * farther;
+    }
+    return squared;
   }
 
   /// A range less the distance to the centre of a cell.

@@ -122,6 +122,16 @@ class TBayes {
     return state.log_odds <= params_.log_odds_min && state.hits < params_.hits_max && params_.rule == Rule::robust;
   }
 
+  /// See ClearingPolicy.
+  [[nodiscard]] State cleared() const { return {params_.log_odds_min, 0, 0}; }
+
+  /// Where ln N(r; 0, S_o) falls below log_odds_min, and a little further, so that rounding does not matter.
+  [[nodiscard]] float clearing_residual_m(const Beam& beam) const {
+    if (params_.rule == Rule::literal) return std::numeric_limits<float>::infinity();
+    const float to_fall = std::max(0.0F, beam.occupied_offset - params_.log_odds_min);
+    return 1e-4F + 1.0001F * std::sqrt(to_fall / beam.occupied_half_precision);
+  }
+
   void forget_stamp(State& state) const { state.settled_by = 0; }
 
   [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }
@@ -144,6 +154,6 @@ class TBayes {
   double erosion_sigmas2_ = 0.0;
 };
 
-static_assert(CellPolicy<TBayes>);
+static_assert(ClearingPolicy<TBayes>);
 
 }  // namespace incognita
