@@ -7,7 +7,11 @@
 #include <vector>
 
 #include "incognita/core/random.hpp"
+#include "incognita/entropy/behavioral.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
+#include "incognita/exploration/candidate.hpp"
+#include "incognita/frontier/frontier_layer.hpp"
+#include "incognita/map/entropy_layer.hpp"
 #include "incognita/map/map.hpp"
 #include "room.hpp"
 
@@ -17,20 +21,20 @@ namespace {
 std::atomic<std::size_t> allocations{0};
 }
 
-void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
   ++allocations;
   return std::malloc(size == 0 ? 1 : size);
 }
-void* operator new(std::size_t size) {
+[[gnu::noinline]] void* operator new(std::size_t size) {
   if (void* memory = operator new(size, std::nothrow)) return memory;
   throw std::bad_alloc();
 }
-void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept { return operator new(size, tag); }
-void* operator new[](std::size_t size) { return operator new(size); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+[[gnu::noinline]] void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept { return operator new(size, tag); }
+[[gnu::noinline]] void* operator new[](std::size_t size) { return operator new(size); }
+[[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
 using namespace incognita;
 
@@ -62,4 +66,43 @@ TEST_CASE("A filter in a room that it knows allocates nothing for a scan, and fo
   }
   CHECK(in_correct == 0);
   CHECK(in_learn <= 3);  // the list of pieces, which doubles
+}
+
+TEST_CASE("A map that has grown, what follows it, and predictions on it allocate nothing", "[map]") {
+  const std::vector<room::Wall> walls = room::box(room::kTurned);
+  Random random(2);
+  const EntropyTable entropy(Behavioral{0.7});
+  const DvlEkf filter;
+  Map<> map;
+  map.reserve({Eigen::Vector2d(-16.0, -16.0), Eigen::Vector2d(16.0, 16.0)});
+  OccupancyLayer occupancy(map.lattice());
+  FrontierLayer frontier(map.lattice());
+  EntropyLayer<EntropyTable> information(map.lattice(), entropy);
+  std::vector<GainWorkspace<TBayes>> workspaces;
+  std::vector<Candidate> candidates(3);
+  for (Candidate& candidate : candidates) {
+    candidate.path = Polyline({Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0))});
+  }
+  std::size_t in_update = 0;
+  std::size_t in_layers = 0;
+  std::size_t in_candidates = 0;
+  for (int scan_number = 0; scan_number < 400; ++scan_number) {
+    const Pose2 truth{0.4 * std::sin(0.1 * scan_number), 0.3 * std::cos(0.07 * scan_number), 0.01 * scan_number};
+    const Scan<2> scan = room::scan_of(walls, truth);
+    const bool is_warm = scan_number >= 200;
+    std::size_t before = allocations;
+    map.update(scan, truth, Eigen::Matrix3d::Identity() * 1e-4);
+    if (is_warm) in_update += allocations - before;
+    before = allocations;
+    occupancy.follow(map);
+    frontier.follow(occupancy);
+    information.follow(map);
+    if (is_warm) in_layers += allocations - before;
+    before = allocations;
+    evaluate_candidates(map, entropy, filter, candidates, GainParams{}, 1, workspaces);
+    if (is_warm) in_candidates += allocations - before;
+  }
+  CHECK(in_update == 0);
+  CHECK(in_layers == 0);
+  CHECK(in_candidates == 0);
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -127,8 +128,10 @@ template <CellPolicy Cell, class Filter>
     workspace.overlay.update(workspace.scan, Pose2{to[0], to[1], 0.0}, position_covariance(belief.covariance));
   };
 
-  const std::vector<Eigen::Vector2d> poses = resample_path(path, params.pose_spacing_m);
-  for (std::size_t i = 1; i < poses.size(); ++i) drive_and_scan(poses[i]);
+  bool is_start = true;
+  for_each_place(path, params.pose_spacing_m, [&](const Eigen::Vector2d& place_m) {
+    if (!std::exchange(is_start, false)) drive_and_scan(place_m);
+  });
 
   const Overlay<Cell>& overlay = workspace.overlay;
   double gain_nats = 0.0;

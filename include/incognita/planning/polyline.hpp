@@ -79,15 +79,23 @@ class Polyline {
   std::vector<double> arc_m_;
 };
 
-/// Places along a path at even distances of at most `spacing_m`, both ends included; the path itself when it
-/// has fewer than two corners. Throws std::invalid_argument unless spacing_m is finite and > 0.
-[[nodiscard]] inline std::vector<Eigen::Vector2d> resample_path(const Polyline& path, double spacing_m) {
-  require_positive("resample_path", "spacing_m", spacing_m);
-  if (path.points_m().size() < 2) return path.points_m();
+/// Calls visit(place) for places along a path at even distances of at most `spacing_m`, both ends included; for those of the path
+/// itself when it has fewer than two corners. Throws std::invalid_argument unless spacing_m is finite and > 0. No allocation.
+template <class Visit>
+void for_each_place(const Polyline& path, double spacing_m, Visit&& visit) {
+  require_positive("for_each_place", "spacing_m", spacing_m);
+  if (path.points_m().size() < 2) {
+    for (const Eigen::Vector2d& point_m : path.points_m()) visit(point_m);
+    return;
+  }
   const double steps = std::max(1.0, std::ceil(path.length_m() / spacing_m - 1e-9));
+  for (double step = 0.0; step <= steps; step += 1.0) visit(path.point_at(path.length_m() * step / steps));
+}
+
+/// The places of for_each_place.
+[[nodiscard]] inline std::vector<Eigen::Vector2d> resample_path(const Polyline& path, double spacing_m) {
   std::vector<Eigen::Vector2d> points_m;
-  for (double step = 0.0; step <= steps; step += 1.0)
-    points_m.push_back(path.point_at(path.length_m() * step / steps));
+  for_each_place(path, spacing_m, [&](const Eigen::Vector2d& point_m) { points_m.push_back(point_m); });
   return points_m;
 }
 
