@@ -50,8 +50,7 @@ class MapBeams {
       const double variance_m2 = std::max(0.0, direction.dot(position_covariance_m2 * direction));
       const double length_m = is_hit ? range_m + push_m : range_m;
       const Point<Dim> end = lattice.to_cells(origin_m + direction * length_m);
-      const typename Cell::Beam constants = policy.beam(variance_m2);
-      beams_.push_back({end, range_m, is_hit, clearing_reach(policy, constants, range_m), constants, Walk(origin_, end, !is_hit)});
+      beams_.push_back({end, range_m, is_hit, policy.beam(variance_m2), Walk(origin_, end, !is_hit)});
     }
     report_ = {beams_.size(), scan.size() - beams_.size()};
   }
@@ -146,7 +145,7 @@ class MapBeams {
       Word cells = found & heeding[place];  // some may have been settled since
       if constexpr (ClearingPolicy<Cell>) {
         const Word unwritten = cells & ~layers.written.tiles()[place];
-        if (unwritten != 0 && farthest2(tile) <= beam.clearing_reach2) {
+        if (unwritten != 0 && is_cleared_by(policy, beam, tile)) {
           static_cast<void>(layers.mark_changed(place, tile, unwritten));
           states.clear(place, tile, unwritten);
           heeding[place] &= ~unwritten;
@@ -179,7 +178,6 @@ class MapBeams {
     Point<Dim> end;  // in lattice coordinates
     double range_m;  // as measured
     bool is_hit;
-    float clearing_reach2;  // cells whose centres are nearer than this, in cells, squared, are cleared if they were never written
     typename Cell::Beam constants;
     Walk walk;
   };
@@ -190,23 +188,16 @@ class MapBeams {
     return index;
   }
 
-  [[nodiscard]] float clearing_reach(const Cell& policy, const typename Cell::Beam& constants, double range_m) const {
-    if constexpr (ClearingPolicy<Cell>) {
-      const float reach = (static_cast<float>(range_m) - policy.clearing_residual_m(constants)) / resolution_m_;
-      return reach > 0.0F ? reach * reach : -1.0F;
-    }
-    return -1.0F;
-  }
-
-  /// The squared distance to the farthest centre of a tile's cells, in cells.
-  [[nodiscard]] float farthest2(const Index<2>& tile) const {
-    float squared = 0.0F;
+  /// Whether a beam clears every cell of a tile that was never written.
+  [[nodiscard]] bool is_cleared_by(const Cell& policy, const Beam& beam, const Index<2>& tile) const {
+    float farthest2 = 0.0F;  // of the cells' centres from the sensor, in cells, squared
     for (int axis = 0; axis < 2; ++axis) {
       const auto first = static_cast<float>(tile[axis] * CellBits::tile_side + 0.5 - origin_[axis]);
       const float farther = std::max(-first, first + static_cast<float>(CellBits::tile_side - 1));
-      squared += farther * farther;
+      farthest2 += farther * farther;
     }
-    return squared;
+    const float reach = (static_cast<float>(beam.range_m) - policy.clearing_residual_m(beam.constants)) / resolution_m_;
+    return reach > 0.0F && farthest2 <= reach * reach;
   }
 
   /// A range less the distance to the centre of a cell.
