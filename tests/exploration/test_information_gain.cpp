@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "incognita/core/random.hpp"
@@ -250,6 +251,18 @@ TEST_CASE("a path that leads nowhere gains nothing") {
   CHECK(information_gain(map, table, filter, Polyline{}, coarse_params(), workspace) == 0.0);
   CHECK(information_gain(map, table, filter, Polyline({path.points_m().front()}), coarse_params(), workspace) == 0.0);
   CHECK(changed_count(workspace.overlay) == 0);
+}
+
+TEST_CASE("a path out of the room that the map has is refused") {
+  Random random(7);
+  const Map<TBayes> map = half_seen_room<TBayes>(random);
+  const DvlEkf filter;
+  GainWorkspace<TBayes> workspace;
+  const EntropyTable table(Shannon{});
+  for (const Eigen::Vector2d& to : {Eigen::Vector2d(30.0, 0.0), Eigen::Vector2d(0.0, -1e6)}) {
+    const Polyline path({Eigen::Vector2d(0.0, 0.0), to});
+    CHECK_THROWS_AS(information_gain(map, table, filter, path, coarse_params(), workspace), std::length_error);
+  }
 }
 
 TEST_CASE("a workspace that has served before gives the same bits as a new one") {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -75,7 +76,8 @@ struct RayInterval {
 }
 
 /// Predicts the scan that `workspace.scan`'s beams would read at `position`, in the axes of the map, from the overlay: a
-/// beam ends in the first cell that is blocked (see MapParams). The cells that beams hit go into `workspace.hits`.
+/// beam ends in the first cell that is blocked (see MapParams). The cells that beams hit go into `workspace.hits`. Throws
+/// std::length_error unless all within the range lies in the map's box (Map::reserve).
 template <CellPolicy Cell>
 void predict_scan(const Eigen::Vector2d& position, GainWorkspace<Cell>& workspace) {
   const Overlay<Cell>& overlay = workspace.overlay;
@@ -83,6 +85,10 @@ void predict_scan(const Eigen::Vector2d& position, GainWorkspace<Cell>& workspac
   const double push_m = overlay.map().hit_push_m();
   const Point<2> origin = lattice.to_cells(position);
   Scan<2>& scan = workspace.scan;
+  const Box<Eigen::Vector2d> reach_m = Box<Eigen::Vector2d>{position, position}.padded(scan.range_max_m());
+  if (!overlay.map().grid().box().contains(lattice.cells_of(reach_m).padded(1))) {
+    throw std::length_error("predict_scan: a beam may reach out of the map's box; see Map::reserve");
+  }
   workspace.hits.clear();
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     const Eigen::Vector2d& direction = scan.direction(beam);
@@ -108,8 +114,8 @@ void predict_scan(const Eigen::Vector2d& position, GainWorkspace<Cell>& workspac
 /// H(map) - H(map after the scans predicted along `path`), in nats, of the map that workspace.overlay looks at: (16), or (18), BIG, with the entropy table of
 /// `Behavioral`. Summed over the cells that the predicted scans touch; the others cancel. At each pose, in this order:
 /// motion (7), predicted scan, covariance (11a) given the map so far, cells (15) given that covariance. The path starts
-/// at the robot; its first point brings nothing. Cells in reach of the path must lie in the map's box (Map::reserve);
-/// std::length_error otherwise.
+/// at the robot; its first point brings nothing. All within the sensor's range of the path must lie in the map's box
+/// (Map::reserve); std::length_error otherwise.
 /// O(poses * beams * cells a beam).
 template <CellPolicy Cell, class Filter>
 [[nodiscard]] double information_gain(const EntropyTable& entropy, const Filter& filter, const Polyline& path,

@@ -71,7 +71,8 @@ class SegmentWalk {
   [[nodiscard]] int tile_columns() const { return ((last_column_ + phase_) >> shift) + 1; }
 
   /// Calls report(column, may_meet) for each column of tiles in the order of the walk, until it returns false: whether a cell of
-  /// the segment there may be set; may_meet false is certain. The tiles of the segment's cells and of those beside them must be there.
+  /// the segment there may be set; may_meet false is certain. The tiles of the segment's cells and of those beside them must be
+  /// there.
   template <class Report>
   void survey(const CellBits& bits, Report&& report) const {
     const bool is_rising = last_row_ >= first_row_;
@@ -86,6 +87,38 @@ class SegmentWalk {
   /// either may have none. False, and nothing is found, where rounding might decide: see visit_exactly.
   [[nodiscard]] bool find_set(const CellBits& bits, int tile_column, std::array<TileCells, 2>& met) const {
     return is_steep_ ? find_set_in<1>(bits, tile_column, met) : find_set_in<0>(bits, tile_column, met);
+  }
+
+  /// Calls visit(TileCells) for tiles with what find_set could not find, with the rows as traverse_cells computes them, in the
+  /// order of the walk, until visit returns false; returns whether it never did. `from` and `to` as given to the constructor.
+  template <class Visit>
+  bool visit_exactly(const CellBits& bits, int tile_column, const Point<2>& from, const Point<2>& to, Visit&& visit) const {
+    const Grid<CellBits::Word, 2>& tiles = bits.tiles();
+    int column = std::max(tile_column * CellBits::tile_side - phase_, 0);
+    const int last = std::min((tile_column + 1) * CellBits::tile_side - phase_ - 1, last_column_);
+    const int row_step = last_row_ < first_row_ ? -1 : 1;
+    int row = column == 0 ? first_row_ : exact_row_after(column - 1, from, to);
+    int last_row = exact_row_after(column, from, to);
+    while (column <= last) {
+      const Index<2> tile = CellBits::tile_of(cell_at(first_index_ + column * step_, row));
+      CellBits::Word cells = 0;
+      for (;;) {
+        const Index<2> cell = cell_at(first_index_ + column * step_, row);
+        if (!equal(CellBits::tile_of(cell), tile)) break;
+        if (column != last_column_ || row != last_row_ || without_ == 0) cells |= CellBits::mask_of(cell);
+        if (row != last_row) {
+          row += row_step;
+        } else if (++column > last) {
+          break;
+        } else {
+          last_row = exact_row_after(column, from, to);
+        }
+      }
+      const Offset place = tiles.offset_of(tile);
+      cells &= tiles[place];
+      if (cells != 0 && !visit(TileCells{place, tile, cells})) return false;
+    }
+    return true;
   }
 
   /// Of some cells of a tile that the segment passes, the one it passes first.
@@ -260,40 +293,6 @@ class SegmentWalk {
     return true;
   }
 
- public:
-  /// Calls visit(TileCells) for tiles with what find_set could not find, with the rows as traverse_cells computes them, in the
-  /// order of the walk, until visit returns false; returns whether it never did. `from` and `to` as given to the constructor.
-  template <class Visit>
-  bool visit_exactly(const CellBits& bits, int tile_column, const Point<2>& from, const Point<2>& to, Visit&& visit) const {
-    const Grid<CellBits::Word, 2>& tiles = bits.tiles();
-    int column = std::max(tile_column * CellBits::tile_side - phase_, 0);
-    const int last = std::min((tile_column + 1) * CellBits::tile_side - phase_ - 1, last_column_);
-    const int row_step = last_row_ < first_row_ ? -1 : 1;
-    int row = column == 0 ? first_row_ : exact_row_after(column - 1, from, to);
-    int last_row = exact_row_after(column, from, to);
-    while (column <= last) {
-      const Index<2> tile = CellBits::tile_of(cell_at(first_index_ + column * step_, row));
-      CellBits::Word cells = 0;
-      for (;;) {
-        const Index<2> cell = cell_at(first_index_ + column * step_, row);
-        if (!equal(CellBits::tile_of(cell), tile)) break;
-        if (column != last_column_ || row != last_row_ || without_ == 0) cells |= CellBits::mask_of(cell);
-        if (row != last_row) {
-          row += row_step;
-        } else if (++column > last) {
-          break;
-        } else {
-          last_row = exact_row_after(column, from, to);
-        }
-      }
-      const Offset place = tiles.offset_of(tile);
-      cells &= tiles[place];
-      if (cells != 0 && !visit(TileCells{place, tile, cells})) return false;
-    }
-    return true;
-  }
-
- private:
   /// Where both axes cross at once the lower one does first.
   [[nodiscard]] int exact_row_after(int column, const Point<2>& from, const Point<2>& to) const {
     if (column >= last_column_) return last_row_;
