@@ -159,6 +159,15 @@ struct ForgetsNothing : Wrong {
   void forget_stamp(State&) const {}
 };
 
+struct ClearsTooEarly : TBayes {
+  float clearing_residual_m(const Beam& beam) const { return 0.9F * TBayes::clearing_residual_m(beam); }
+};
+struct ClearsToAnother : TBayes {
+  State cleared() const { return {params().log_odds_min, 0, 1}; }
+};
+static_assert(ClearingPolicy<TBayes> && ClearingPolicy<ClearsTooEarly>);
+static_assert(!ClearingPolicy<LogOdds> && !ClearingPolicy<Counting>);
+
 template <class Policy>
 bool breaks(const std::string& law) {
   static_assert(CellPolicy<Policy>);
@@ -182,7 +191,19 @@ TEST_CASE("The check of the laws catches a wrong cell policy", "[map]") {
   CHECK(breaks<IgnoresTooEarly>("a pass leaves a state for which ignores_passes holds as it is"));
   CHECK(breaks<CountsWhatItIgnores>("a pass leaves a state for which ignores_passes holds as it is"));
   CHECK(breaks<ForgetsTooMuch>("forget_stamp leaves the log-odds as they are"));
+  CHECK(breaks<ClearsTooEarly>("a pass of a new cell at clearing_residual_m or beyond leaves a cleared one"));
+  CHECK(breaks<ClearsToAnother>("a pass of a new cell at clearing_residual_m or beyond leaves a cleared one"));
   CHECK(breaks<ForgetsNothing>("forget_stamp makes every stamp new"));
+}
+
+TEST_CASE("What a far pass clears obeys the laws for other parameters, too", "[map]") {
+  CHECK(check_cell_policy_laws(TBayes(TBayes::literal_params())).text() == "");
+  TBayes::Params params;
+  params.log_odds_min = -2.0F;
+  params.hits_max = 1;
+  CHECK(check_cell_policy_laws(TBayes(params)).text() == "");
+  params.log_odds_min = -1000.0F;
+  CHECK(check_cell_policy_laws(TBayes(params)).text() == "");
 }
 
 TEST_CASE("Parameters that are valid can still break a law of a cell policy", "[map]") {

@@ -12,8 +12,8 @@
 
 namespace incognita {
 
-/// Checks the laws on the page of CellPolicy (map/cell_policy.hpp) on fixed seeded sequences of hits and
-/// passes, with residuals up to 100 m and poses from exact to a variance of 100 m^2, and on 20,000 equal
+/// Checks the laws on the page of CellPolicy, and of ClearingPolicy where it is one (map/cell_policy.hpp), on fixed seeded
+/// sequences of hits and passes, with residuals up to 100 m and poses from exact to a variance of 100 m^2, and on 20,000 equal
 /// updates in a row. A policy that passes may still break a law on another sequence.
 template <CellPolicy Policy>
 [[nodiscard]] LawReport check_cell_policy_laws(const Policy& policy) {
@@ -76,6 +76,31 @@ template <CellPolicy Policy>
         ignored = ignored && check_ignored(passes, variance_m2, residual_m, stamp);
       }
     }
+  }
+
+  if constexpr (ClearingPolicy<Policy>) {
+    Random random(9);
+    bool same = true;
+    for (int draw = 0; draw < 4000 && same; ++draw) {
+      const double variance_m2 = std::pow(10.0, random.uniform(-8.0, 2.0));
+      const auto beam = policy.beam(variance_m2);
+      const float least_m = policy.clearing_residual_m(beam);
+      const float residual_m = least_m * static_cast<float>(draw % 2 == 0 ? 1.0 : random.uniform(1.0, 10.0));
+      if (!std::isfinite(residual_m)) continue;  // nothing is cleared
+      State left = policy.cleared();
+      State far_passed{};
+      policy.pass(far_passed, beam, residual_m, 1);
+      same = policy.ignores_passes(left) && Policy::log_odds(left) == Policy::log_odds(far_passed);
+      for (int next = 0; next < 6; ++next) {
+        const auto stamp = static_cast<ScanStamp>(2 + next);
+        for (State* const cell : {&left, &far_passed}) {
+          policy.hit(*cell, beam, 0.0F, stamp);
+          policy.pass(*cell, beam, residual_m, static_cast<ScanStamp>(stamp + next % 2));
+        }
+        same = same && Policy::log_odds(left) == Policy::log_odds(far_passed);
+      }
+    }
+    report.check(same, "a pass of a new cell at clearing_residual_m or beyond leaves a cleared one, which ignores passes");
   }
 
   const Policy copy = policy;
