@@ -62,8 +62,8 @@ class Followers {
  private:
   FrontierParams params_;
   EntropyTable entropy_;
-  OccupancyLayer occupancy_;
-  FrontierLayer frontier_;
+  OccupancyLayer<2> occupancy_;
+  FrontierLayer<2> frontier_;
   EntropyLayer<EntropyTable> information_;
 };
 
@@ -128,4 +128,29 @@ TEST_CASE("What follows an empty map is empty", "[frontier]") {
   followers.rebuild(map);
   followers.require_same_as_all_anew(map);
   REQUIRE(followers.information_nats() == 0.0);
+}
+
+TEST_CASE("What follows a map finds out that it has missed scans, and lets go of what a map knew before", "[frontier]") {
+  Random random(3);
+  Map<> map({0.2, 0.5});
+  Followers<TBayes> followers(map.lattice(), {});
+  for (const int missed : {0, 1, 0, 4}) {
+    for (int n = 0; n <= missed; ++n) {
+      map.update(room_scan(random), {random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0), 0.0}, Eigen::Matrix3d::Zero());
+    }
+    followers.follow(map);
+    followers.require_same_as_all_anew(map);
+    followers.follow(map);  // nothing has changed since
+    followers.require_same_as_all_anew(map);
+  }
+  OccupancyLayer occupancy(map.lattice());
+  FrontierLayer frontier(map.lattice());
+  occupancy.rebuild(map);
+  frontier.follow(occupancy);
+  REQUIRE(frontier.cells() == detect_frontier<2>(classify(map)));
+  REQUIRE(frontier.cells().size() > 50);
+  const Map<> other({0.2, 0.5});
+  occupancy.rebuild(other);
+  frontier.follow(occupancy);
+  REQUIRE(frontier.cells().empty());
 }

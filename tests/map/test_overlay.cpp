@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -171,4 +172,25 @@ TEST_CASE("An overlay refuses a predicted scan that reaches out of the map's box
   }
   REQUIRE(changed_cells(overlay).empty());
   REQUIRE_NOTHROW(overlay.update(east, {corner.x() - 1.5, corner.y(), 0.0}, Eigen::Matrix2d::Zero()));
+}
+
+TEST_CASE("An overlay refuses poses that are far away or nowhere, and one that has looked at nothing", "[map]") {
+  Random random(7);
+  Map<> map = scanned_map<TBayes>(random);
+  Overlay<TBayes> overlay;
+  REQUIRE_THROWS_AS(overlay.forget(), std::logic_error);
+  overlay.look_at(map);
+  const Scan<2> scan = reference::random_scan<2>(random, 8, 4.0);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double far : {1e5, 2e8, 1e9, 1e12, 1e300, infinity, nan}) {
+    for (const Pose2& pose : {Pose2{far, 0.0, 0.0}, Pose2{0.0, -far, 0.0}, Pose2{far, far, 0.0}}) {
+      REQUIRE_THROWS_AS(overlay.update(scan, pose, Eigen::Matrix2d::Zero()), std::length_error);
+    }
+  }
+  REQUIRE(changed_cells(overlay).empty());
+  map.reserve({Point<2>::Constant(-50.0), Point<2>::Constant(50.0)});
+  REQUIRE_THROWS_AS(overlay.forget(), std::logic_error);
+  overlay.look_at(map);
+  REQUIRE_NOTHROW(overlay.update(scan, {30.0, 0.0, 0.0}, Eigen::Matrix2d::Zero()));
 }

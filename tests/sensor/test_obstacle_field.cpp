@@ -143,3 +143,19 @@ TEST_CASE("A disc goes along a curve up to the contact", "[sensor]") {
   CHECK(clear_length_m(field, 0.2, 10.0, from_inside) ==
         Approx(2.4 * (std::asin(2.25 / 2.4) - 0.8)).margin(3e-6));
 }
+
+TEST_CASE("Rays that run along lines of the lattice but for rounding end", "[sensor]") {
+  Grid<std::uint8_t, 2> plan(Lattice<2>(1.0), {{0, 0}, {200, 40}}, std::uint8_t{0});
+  const ObstacleField field(plan, [](std::uint8_t value) { return value != 0; });
+  for (const double across : {0.0, 1.2246e-16, -1.2246e-16}) {
+    for (const double along : {1.0, -1.0}) {
+      for (const double on_line : {2.0, 20.0, 38.0}) {
+        const double to_wall_x_m = along > 0.0 ? 99.5 : 100.5;
+        CHECK(field.cast_ray_m({100.5, on_line}, {along, across}, 150.0) == Approx(to_wall_x_m));
+        CHECK(field.cast_ray_m({100.5, on_line}, {along, across}, 50.0) == 50.0);
+        const double to_wall_y_m = along > 0.0 ? 40.0 - on_line : on_line;
+        CHECK(field.cast_ray_m({100.0, on_line}, {across, along}, 150.0) == Approx(to_wall_y_m));
+      }
+    }
+  }
+}

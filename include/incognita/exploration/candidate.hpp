@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -98,11 +99,12 @@ void evaluate_candidates(const Map<Cell, 2>& map, const EntropyTable& entropy, c
                          std::vector<Candidate>& candidates, const GainParams& params, int threads,
                          std::vector<GainWorkspace<Cell>>& workspaces) {
   workspaces.resize(std::max(workspaces.size(), static_cast<std::size_t>(worker_count(threads))));
-  for (GainWorkspace<Cell>& workspace : workspaces) workspace.overlay.look_at(map);
+  for (GainWorkspace<Cell>& workspace : workspaces) workspace.has_looked = false;
   for_each_index(candidates.size(), threads, [&](std::size_t index, int worker) {
     Candidate& candidate = candidates[index];
-    candidate.gain_nats = information_gain(entropy, filter, candidate.path, params,
-                                           workspaces[static_cast<std::size_t>(worker)]);
+    GainWorkspace<Cell>& workspace = workspaces[static_cast<std::size_t>(worker)];
+    if (!std::exchange(workspace.has_looked, true)) workspace.overlay.look_at(map);
+    candidate.gain_nats = information_gain(entropy, filter, candidate.path, params, workspace);
   });
 }
 

@@ -195,7 +195,7 @@ class Explorer {
   [[nodiscard]] const SlamReport& last_scan() const { return last_scan_; }  ///< what became of it
   [[nodiscard]] const CorrectionReport& correction() const { return last_scan_.correction; }
   /// What is free, occupied and unknown in the map, with the explorer's thresholds.
-  [[nodiscard]] const OccupancyLayer& occupancy() const { return occupancy_; }
+  [[nodiscard]] const OccupancyLayer<2>& occupancy() const { return occupancy_; }
   [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }
   [[nodiscard]] const ExplorerParams& params() const { return params_; }
   [[nodiscard]] double time_s() const { return time_s_; }
@@ -294,7 +294,7 @@ class Explorer {
   void reserve_reach() {
     const IndexBox<2>& box = reached_;
     const Box<Eigen::Vector2d> reached_m{map().lattice().center_m(box.lower), map().lattice().center_m(box.upper)};
-    const double margin_m = map().hit_push_m() + 2.0 * map().resolution_m();
+    const double margin_m = map().hit_push_m() + 2.0 * map().resolution_m() + params_.travel.escape_radius_m;
     slam_.reserve(reached_m.padded(params_.gain.range_max_m + margin_m));
   }
 
@@ -363,8 +363,8 @@ class Explorer {
   ExplorerParams params_;
   Slam<MapType, Filter> slam_;
   EntropyTable entropy_;
-  OccupancyLayer occupancy_;
-  FrontierLayer frontier_;
+  OccupancyLayer<2> occupancy_;
+  FrontierLayer<2> frontier_;
   Grid<float, 2> clearance_m_;    // scratch of a decision, as the next
   TravelCostField travel_costs_;
   SetAsidePlaces set_aside_;

@@ -44,6 +44,7 @@ struct GainParams {
 template <CellPolicy Cell>
 struct GainWorkspace {
   Overlay<Cell> overlay;
+  bool has_looked = false;  ///< used by evaluate_candidates
   Scan<2> scan{BeamPattern<2>{}};
   std::vector<RayObservation> hits;
 
@@ -85,6 +86,7 @@ void predict_scan(const Eigen::Vector2d& position, GainWorkspace<Cell>& workspac
   const double push_m = overlay.map().hit_push_m();
   const Point<2> origin = lattice.to_cells(position);
   Scan<2>& scan = workspace.scan;
+  overlay.map().require_reach(position, scan.range_max_m());
   const Box<Eigen::Vector2d> reach_m = Box<Eigen::Vector2d>{position, position}.padded(scan.range_max_m());
   if (!overlay.map().grid().box().contains(lattice.cells_of(reach_m).padded(1))) {
     throw std::length_error("predict_scan: a beam may reach out of the map's box; see Map::reserve");
@@ -111,11 +113,12 @@ void predict_scan(const Eigen::Vector2d& position, GainWorkspace<Cell>& workspac
   }
 }
 
-/// H(map) - H(map after the scans predicted along `path`), in nats, of the map that workspace.overlay looks at: (16), or (18), BIG, with the entropy table of
+/// H(map) - H(map after the scans predicted along `path`), in nats: (16), or (18), BIG, with the entropy table of
 /// `Behavioral`. Summed over the cells that the predicted scans touch; the others cancel. At each pose, in this order:
 /// motion (7), predicted scan, covariance (11a) given the map so far, cells (15) given that covariance. The path starts
 /// at the robot; its first point brings nothing. All within the sensor's range of the path must lie in the map's box
-/// (Map::reserve); std::length_error otherwise.
+/// (Map::reserve); std::length_error otherwise. The map is the one that workspace.overlay looks at (Overlay::look_at); what
+/// the overlay held is forgotten.
 /// O(poses * beams * cells a beam).
 template <CellPolicy Cell, class Filter>
 [[nodiscard]] double information_gain(const EntropyTable& entropy, const Filter& filter, const Polyline& path,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <vector>
 
 #include "incognita/frontier/detection.hpp"
@@ -11,65 +12,65 @@
 
 namespace incognita {
 
-/// The same cells as detect_frontier, kept up to date at the cost of what changes.
+/// The same cells as detect_frontier, kept up to date at the cost of what changes. Of maps of the plane. Safe to read from many
+/// threads.
+template <int Dim>
 class FrontierLayer {
+  static_assert(Dim == 2);
+
  public:
   /// Throws std::invalid_argument for bad parameters.
-  explicit FrontierLayer(const Lattice<2>& lattice, const FrontierParams& params = {})
+  explicit FrontierLayer(const Lattice<Dim>& lattice, const FrontierParams& params = {})
       : params_(params), frontier_(lattice, false), listed_(frontier_.tiles().lattice(), false) {
     params_.validate();
   }
 
   /// Takes over what the last follow or rebuild of the layer changed; to be called after each. A cell belongs to the frontier by
   /// the cells up to two away. O(tiles changed).
-  void follow(const OccupancyLayer& occupancy) {
+  void follow(const OccupancyLayer<Dim>& occupancy) {
     make_room_for(occupancy);
-    for (const Index<2>& tile : occupancy.changed_tiles()) {
+    for (const Index<Dim>& tile : occupancy.changed_tiles()) {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) find_in(occupancy, {tile[0] + dx, tile[1] + dy});
       }
     }
+    drop_emptied();
   }
 
   /// Takes a layer as it is. O(tiles).
-  void rebuild(const OccupancyLayer& occupancy) {
+  void rebuild(const OccupancyLayer<Dim>& occupancy) {
     *this = FrontierLayer(occupancy.grid().lattice(), params_);
     make_room_for(occupancy);
-    for_each_tile_of(occupancy.grid().box(), [&](const Index<2>& tile) { find_in(occupancy, tile); });
+    for_each_tile_of(occupancy.grid().box(), [&](const Index<Dim>& tile) { find_in(occupancy, tile); });
   }
 
   /// The cells of the frontier in storage order, as detect_frontier has them. O(n log n) for n of them.
-  [[nodiscard]] std::vector<Index<2>> cells() {
-    std::erase_if(tiles_, [this](const Index<2>& tile) {
-      const bool is_empty = frontier_.tiles().value(tile) == 0;
-      if (is_empty) listed_.set(tile, false);
-      return is_empty;
-    });
-    std::vector<Index<2>> cells;
-    for (const Index<2>& tile : tiles_) {
+  [[nodiscard]] std::vector<Index<Dim>> cells() const {
+    std::vector<Index<Dim>> cells;
+    for (const Index<Dim>& tile : tiles_) {
       for (CellBits::Word left = frontier_.tiles().value(tile); left != 0; left &= left - 1U) {
         cells.push_back(CellBits::cell_of(tile, std::countr_zero(left)));
       }
     }
     std::sort(cells.begin(), cells.end(),
-              [](const Index<2>& a, const Index<2>& b) { return a[1] != b[1] ? a[1] < b[1] : a[0] < b[0]; });
+              [](const Index<Dim>& a, const Index<Dim>& b) { return a[1] != b[1] ? a[1] < b[1] : a[0] < b[0]; });
     return cells;
   }
 
  private:
-  void make_room_for(const OccupancyLayer& occupancy) {
+  void make_room_for(const OccupancyLayer<Dim>& occupancy) {
     frontier_.grow_to_include(occupancy.grid().box());
     listed_.grow_to_include(frontier_.tiles().box());
   }
 
-  void find_in(const OccupancyLayer& occupancy, const Index<2>& tile) {
+  void find_in(const OccupancyLayer<Dim>& occupancy, const Index<Dim>& tile) {
     if (!frontier_.tiles().contains(tile)) return;
     const CellBits::Word free = occupancy.free().tiles().value(tile);
     CellBits::Word& frontier = frontier_.tiles()[frontier_.tiles().offset_of(tile)];
     frontier = 0;
     if (free == 0) return;
-    const auto is_occupied = [&](const Index<2>& at) { return occupancy.occupied().tiles().value(at); };
-    frontier = free & TileNeighbors(tile, [&](const Index<2>& at) {
+    const auto is_occupied = [&](const Index<Dim>& at) { return occupancy.occupied().tiles().value(at); };
+    frontier = free & TileNeighbors(tile, [&](const Index<Dim>& at) {
                         const CellBits::Word unknown = ~(occupancy.free().tiles().value(at) | is_occupied(at));
                         if (unknown == 0 || !params_.ignore_unknown_near_walls) return unknown;
                         return unknown & ~TileNeighbors(at, is_occupied).dilated();
@@ -79,10 +80,22 @@ class FrontierLayer {
     tiles_.push_back(tile);
   }
 
+  /// Tiles stay in the list for a while after their last frontier cell, so that dropping them costs little a scan.
+  void drop_emptied() {
+    if (tiles_.size() < 2 * dropped_at_size_ + 64) return;
+    std::erase_if(tiles_, [this](const Index<Dim>& tile) {
+      const bool is_empty = frontier_.tiles().value(tile) == 0;
+      if (is_empty) listed_.set(tile, false);
+      return is_empty;
+    });
+    dropped_at_size_ = tiles_.size();
+  }
+
   FrontierParams params_;
   CellBits frontier_;
   CellBits listed_;              // a bit a tile
-  std::vector<Index<2>> tiles_;  // those with frontier cells, and some that had
+  std::vector<Index<Dim>> tiles_;  // those with frontier cells, and some that had
+  std::size_t dropped_at_size_ = 0;
 };
 
 }  // namespace incognita

@@ -34,11 +34,19 @@ class CellBits {
     return {(tile[0] << tile_shift) + (bit & (tile_side - 1)), (tile[1] << tile_shift) + (bit >> tile_shift)};
   }
 
+  /// The tiles with cells of a box that is not empty.
+  [[nodiscard]] static IndexBox<2> tiles_of(const IndexBox<2>& cells) {
+    const Index<2> last = tile_of({cells.upper[0] - 1, cells.upper[1] - 1});
+    return {tile_of(cells.lower), {last[0] + 1, last[1] + 1}};
+  }
+
+  [[nodiscard]] bool has_room_for(const IndexBox<2>& cells) const {
+    return cells.empty() || tiles_.box().contains(tiles_of(cells));
+  }
+
   /// Makes room for the cells of a box.
   void grow_to_include(const IndexBox<2>& cells) {
-    if (cells.empty()) return;
-    const Index<2> last = tile_of({cells.upper[0] - 1, cells.upper[1] - 1});
-    tiles_.grow_to_include({tile_of(cells.lower), {last[0] + 1, last[1] + 1}});
+    if (!has_room_for(cells)) tiles_.grow_to_include(tiles_of(cells));
   }
 
   [[nodiscard]] bool get(const Index<2>& cell) const { return (tiles_.value(tile_of(cell)) & mask_of(cell)) != 0; }

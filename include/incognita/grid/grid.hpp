@@ -82,25 +82,20 @@ class Grid {
   /// Makes the grid one of `box`, each cell the fill value, in the storage that it has if that is enough. Throws
   /// std::length_error above cell_count_max.
   void clear_to(const IndexBox<Dim>& box) {
+    const auto count = static_cast<std::size_t>(checked_count(box));
+    values_.reserve(count);  // may throw, the grid is then as it was
     resize(box);
-    values_.assign(static_cast<std::size_t>(checked_count(box)), fill_);
+    values_.assign(count, fill_);
   }
 
-  /// Makes room for `needed`; new cells hold the fill value. A side that must move moves by at least half of the
-  /// grid's extent, so a robot that leaves it step by step costs amortised O(1) per new cell. Returns whether the
+  /// Makes room for `needed`; new cells hold the fill value. A side that must move moves by at least one of `parts`
+  /// of the grid's extent, so a robot that leaves it step by step costs amortised O(parts) per new cell. Returns whether the
   /// storage moved. Throws std::length_error above cell_count_max and std::bad_alloc; the grid is then unchanged.
-  bool grow_to_include(const IndexBox<Dim>& needed) {
+  bool grow_to_include(const IndexBox<Dim>& needed, int parts = 2) {
     if (box_.contains(needed)) return false;
     IndexBox<Dim> grown = enclosing_box(box_, needed);
-    if (const IndexBox<Dim> roomy = with_margins(grown); cell_count(roomy) <= cell_count_max) grown = roomy;
+    if (const IndexBox<Dim> roomy = with_margins(grown, parts); cell_count(roomy) <= cell_count_max) grown = roomy;
     move_to(grown);
-    return true;
-  }
-
-  /// As grow_to_include, but moves no side further than is needed: for a grid that follows another one's growth.
-  bool grow_just_to_include(const IndexBox<Dim>& needed) {
-    if (box_.contains(needed)) return false;
-    move_to(enclosing_box(box_, needed));
     return true;
   }
 
@@ -125,14 +120,14 @@ class Grid {
     return count;
   }
 
-  /// `grown`, which holds the grid's box, with each side that moves moved by at least half of the grid's
+  /// `grown`, which holds the grid's box, with each side that moves moved by at least one of `parts` of the grid's
   /// extent, as far as indices go.
-  [[nodiscard]] IndexBox<Dim> with_margins(IndexBox<Dim> grown) const {
+  [[nodiscard]] IndexBox<Dim> with_margins(IndexBox<Dim> grown, int parts) const {
     using Limits = std::numeric_limits<int>;
     for (int axis = 0; axis < Dim && !box_.empty(); ++axis) {
       const std::int64_t lower = box_.lower[axis];
       const std::int64_t upper = box_.upper[axis];
-      const std::int64_t margin = (upper - lower) / 2;
+      const std::int64_t margin = (upper - lower) / parts;
       if (grown.lower[axis] < lower) {
         const std::int64_t moved = std::max<std::int64_t>(lower - margin, Limits::min());
         grown.lower[axis] = std::min(grown.lower[axis], static_cast<int>(moved));

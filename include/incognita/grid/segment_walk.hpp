@@ -22,7 +22,8 @@ namespace detail {
 
 }  // namespace detail
 
-/// A segment made ready to be walked: exactly the cells that traverse_cells visits, a column of tiles at a time. A column of
+/// A segment between cells within 2^30 of the lattice's origin, made ready to be walked: exactly the cells that traverse_cells
+/// visits (but where its ends differ by a subnormal number), a column of tiles at a time. A column of
 /// cells shares an index along the axis that the segment is longer along, so it holds one cell of the segment or two; rows
 /// are counted across. Coordinates across are integers, in 2^-32 of a cell, so that they are found without walking there.
 class SegmentWalk {
@@ -85,7 +86,8 @@ class SegmentWalk {
 
   /// The cells of the segment in a column of tiles that are set: they lie in two tiles, in the order of the walk, of which
   /// either may have none. False, and nothing is found, where rounding might decide: see visit_exactly.
-  [[nodiscard]] bool find_set(const CellBits& bits, int tile_column, std::array<TileCells, 2>& met) const {
+  template <class Bits>
+  [[nodiscard]] bool find_set(const Bits& bits, int tile_column, std::array<TileCells, 2>& met) const {
     return is_steep_ ? find_set_in<1>(bits, tile_column, met) : find_set_in<0>(bits, tile_column, met);
   }
 
@@ -342,7 +344,8 @@ void visit_set(const CellBits& bits, const Point<2>& from, const Point<2>& to, V
 
 /// The first cell of a segment, between points in lattice coordinates, whose bit is set; none where there is none. The tiles
 /// as in visit_set. O(tiles passed before).
-[[nodiscard]] inline std::optional<Index<2>> first_set(const CellBits& bits, const Point<2>& from, const Point<2>& to) {
+template <class Bits>
+[[nodiscard]] std::optional<Index<2>> first_set(const Bits& bits, const Point<2>& from, const Point<2>& to) {
   const SegmentWalk walk(from, to, true);
   std::optional<Index<2>> first;
   visit_set(bits, from, to, [&](const SegmentWalk::TileCells& met) {

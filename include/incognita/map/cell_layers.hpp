@@ -1,6 +1,7 @@
 /// What a map of the plane knows of its cells in one bit each, kept up to date with every cell that is written.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "incognita/grid/cell_bits.hpp"
@@ -20,7 +21,10 @@ struct CellLayers {
 
   /// Makes room for the cells of a box.
   void grow_to_include(const IndexBox<2>& cells) {
-    for (CellBits* layer : {&heeding, &blocked, &written, &changed}) layer->grow_to_include(cells);
+    if (changed.has_room_for(cells)) return;
+    CellLayers grown = *this;  // so that all grow or none
+    for (CellBits* layer : {&grown.heeding, &grown.blocked, &grown.written, &grown.changed}) layer->grow_to_include(cells);
+    *this = std::move(grown);
   }
 
   /// Marks cells of a tile as changed; returns those that were not.

@@ -17,8 +17,8 @@ using ScanStamp = std::uint16_t;
 /// Laws, checked by check_cell_policy_laws: State{} has log-odds exactly 0 (unknown); a hit of an unknown cell at an
 /// exact pose, with residual 0, raises it, and a pass far before the surface lowers it; log-odds stay finite under any
 /// sequence of hits and passes; a pass leaves a state for which ignores_passes holds as it is, to the bit (most of what a
-/// scan meets is free and known to be, so maps ask before they touch a cell); equal sequences give equal states; forget_stamp leaves the log-odds as they are and
-/// makes every stamp new.
+/// scan meets is free and known to be, so maps ask before they touch a cell); equal sequences give equal states; forget_stamp
+/// leaves the log-odds as they are and makes every stamp new.
 /// A map hands a scan over in two rounds, first its hits, then its passes, so a policy may let hits win.
 /// hit and pass are O(1) and noexcept in spirit: they are the hot path. A const policy is safe to share among threads.
 template <class P>
@@ -36,8 +36,8 @@ concept CellPolicy =
     };
 
 /// A policy may say what a pass far before the surface leaves of a cell that was never written, so that maps clear many of them
-/// at once. Law: a pass of State{} with a residual of at least clearing_residual_m(beam) leaves cleared(), to the bit, and
-/// cleared() ignores passes.
+/// at once. Law: a pass of State{} with a residual of at least clearing_residual_m(beam), for ranges up to 1 km whatever the
+/// rounding of a float, leaves cleared(), to the bit, and cleared() ignores passes.
 template <class P>
 concept ClearingPolicy = CellPolicy<P> && requires(const P& policy, const typename P::Beam& beam) {
   { policy.cleared() } -> std::same_as<typename P::State>;

@@ -21,10 +21,13 @@ class EntropyLayer {
   EntropyLayer(const Lattice<2>& lattice, Entropy entropy)
       : entropy_(std::move(entropy)), unknown_nats_(entropy_(0.0F)), tiles_(CellBits(lattice, false).tiles().lattice()) {}
 
-  /// Takes over what the map's last update changed. To be called once after each update; a map that was changed otherwise, or is
-  /// another one, must be taken anew (rebuild). O(tiles changed).
+  /// Takes over what the map's last update changed, or the whole map when more than one update was missed (rebuild). Another map
+  /// must be taken by rebuild. O(tiles changed), amortised.
   template <CellPolicy Cell>
   void follow(const Map<Cell, 2>& map) {
+    if (map.update_count() == update_count_) return;
+    if (map.update_count() != update_count_ + 1) return rebuild(map);
+    update_count_ = map.update_count();
     make_room_for(map);
     for (const Index<2>& tile : map.layers().changed_tiles) take_tile(map, tile);
   }
@@ -34,6 +37,7 @@ class EntropyLayer {
   void rebuild(const Map<Cell, 2>& map) {
     tiles_ = Grid<std::int64_t, 2>(tiles_.lattice());
     total_ = 0;
+    update_count_ = map.update_count();
     make_room_for(map);
     for_each_tile_of(map.grid().box(), [&](const Index<2>& tile) { take_tile(map, tile); });
   }
@@ -44,7 +48,7 @@ class EntropyLayer {
  private:
   template <class MapType>
   void make_room_for(const MapType& map) {
-    tiles_.grow_just_to_include(map.layers().changed.tiles().box());
+    tiles_.grow_to_include(map.layers().changed.tiles().box());
   }
 
   template <class MapType>
@@ -66,6 +70,7 @@ class EntropyLayer {
   double unknown_nats_;
   Grid<std::int64_t, 2> tiles_;
   std::int64_t total_ = 0;
+  std::uint64_t update_count_ = 0;
 };
 
 }  // namespace incognita

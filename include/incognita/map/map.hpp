@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -55,6 +56,9 @@ class Map {
   [[nodiscard]] float blocked_above() const { return params_.blocked_above; }
   [[nodiscard]] double hit_push_m() const { return params_.hit_push_cells * params_.resolution_m; }
 
+  /// How many scans were written; what follows a map knows by it whether it has missed one.
+  [[nodiscard]] std::uint64_t update_count() const { return update_count_; }
+
   /// The stamp of the last scan; 0 before the first.
   [[nodiscard]] ScanStamp stamp() const { return stamp_; }
 
@@ -93,6 +97,7 @@ class Map {
     beams_.take(cell_, lattice(), scan, T_map_sensor, covariance.template topLeftCorner<Dim, Dim>(), hit_push_m());
     grow_to_include(beams_.reach());
     advance_stamp();
+    ++update_count_;
     if constexpr (Dim == 2) {
       layers_.forget_changes();
       beams_.write(cell_, layers_, params_.blocked_above, stamp_, Access{*this});
@@ -100,6 +105,14 @@ class Map {
       beams_.write(cell_, grid_, stamp_);
     }
     return beams_.report();
+  }
+
+  /// Throws std::length_error for a point that is not finite or, with a margin around it, beyond the lattice's reach.
+  void require_reach(const Point<Dim>& point_m, double margin_m) const {
+    const double reach_m = resolution_m() * static_cast<double>(std::numeric_limits<int>::max() / 2);
+    if (!(point_m.array().abs() + margin_m < reach_m).all()) {
+      throw std::length_error("Map: a point lies beyond " + std::to_string(reach_m) + " m from the map's origin");
+    }
   }
 
   /// Makes room for a box of points, in metres, so that prediction there needs no growth. Throws std::length_error for
@@ -141,13 +154,6 @@ class Map {
     if constexpr (Dim == 2) layers_.grow_to_include(grid_.box());
   }
 
-  void require_reach(const Point<Dim>& point_m, double margin_m) const {
-    const double reach_m = resolution_m() * static_cast<double>(std::numeric_limits<int>::max() / 2);
-    if (!(point_m.array().abs() + margin_m < reach_m).all()) {
-      throw std::length_error("Map: a point lies beyond " + std::to_string(reach_m) + " m from the map's origin");
-    }
-  }
-
   /// Stamps stay clear of the upper end of their type by as many scans as a prediction may add (Overlay). When they
   /// run out, every cell forgets its stamp: once in hours of scans.
   void advance_stamp() {
@@ -168,6 +174,7 @@ class Map {
   std::conditional_t<Dim == 2, CellLayers, NoLayers> layers_{lattice()};
   MapBeams<Cell, Dim> beams_;  // scratch
   ScanStamp stamp_ = 0;
+  std::uint64_t update_count_ = 0;
 };
 
 /// Every cell of the map's box in one word.

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "incognita/grid/cell_bits.hpp"
@@ -11,44 +12,60 @@
 
 namespace incognita {
 
-/// The same as classify(map), kept up to date at the cost of the cells that change. Its box holds the tiles in which something is
-/// known, or was; all else is unknown. Safe to read from many threads.
+/// Every cell as classify(map) has it, kept up to date at the cost of the cells that change. The box of grid() holds the tiles in
+/// which something is or was known, and some room to grow; all else is unknown. Of maps of the plane. Safe to read from many
+/// threads.
+template <int Dim>
 class OccupancyLayer {
+  static_assert(Dim == 2);
+
  public:
   /// Of no cells yet. Throws std::invalid_argument for bad thresholds.
-  explicit OccupancyLayer(const Lattice<2>& lattice, const OccupancyThresholds& thresholds = {})
+  explicit OccupancyLayer(const Lattice<Dim>& lattice, const OccupancyThresholds& thresholds = {})
       : thresholds_(thresholds), grid_(lattice, {}, Occupancy::unknown), free_(lattice, false), occupied_(lattice, false) {
     thresholds_.validate();
   }
 
-  /// Takes over what the map's last update changed. To be called once after each update; a map that was changed otherwise, or is
-  /// another one, must be taken anew (rebuild). O(tiles changed).
+  /// Takes over what the map's last update changed, or the whole map when more than one update was missed (rebuild). Another map
+  /// must be taken by rebuild. O(tiles changed), amortised.
   template <CellPolicy Cell>
-  void follow(const Map<Cell, 2>& map) {
+  void follow(const Map<Cell, Dim>& map) {
+    if (map.update_count() != update_count_ + 1) {
+      if (map.update_count() != update_count_) rebuild(map);
+      else changed_tiles_.clear();
+      return;
+    }
     changed_tiles_.clear();
-    for (const Index<2>& tile : map.layers().changed_tiles) {
+    for (const Index<Dim>& tile : map.layers().changed_tiles) {
       classify_tile(map, tile, map.layers().changed.tiles().value(tile));
     }
+    update_count_ = map.update_count();
   }
 
   /// Takes a map as it is. O(cells).
   template <CellPolicy Cell>
-  void rebuild(const Map<Cell, 2>& map) {
-    *this = OccupancyLayer(map.lattice(), thresholds_);
-    const IndexBox<2>& box = map.grid().box();
-    for_each_tile_of(box, [&](const Index<2>& tile) { classify_tile(map, tile, cells_of_tile(tile, box)); });
+  void rebuild(const Map<Cell, Dim>& map) {
+    OccupancyLayer anew(map.lattice(), thresholds_);
+    const IndexBox<Dim>& box = map.grid().box();
+    for_each_tile_of(box, [&](const Index<Dim>& tile) { anew.classify_tile(map, tile, cells_of_tile(tile, box)); });
+    // What was known may not be any more.
+    for_each_tile_of(grid_.box(), [&](const Index<Dim>& tile) {
+      if ((free_.tiles().value(tile) | occupied_.tiles().value(tile)) != 0) anew.changed_tiles_.push_back(tile);
+    });
+    anew.update_count_ = map.update_count();
+    *this = std::move(anew);
   }
 
-  [[nodiscard]] const OccupancyGrid<2>& grid() const { return grid_; }
+  [[nodiscard]] const OccupancyGrid<Dim>& grid() const { return grid_; }
   [[nodiscard]] const CellBits& free() const { return free_; }
   [[nodiscard]] const CellBits& occupied() const { return occupied_; }
 
-  /// The tiles in which a cell was found to be something else by the last follow or rebuild.
-  [[nodiscard]] const std::vector<Index<2>>& changed_tiles() const { return changed_tiles_; }
+  /// The tiles in which a cell may have become something else by the last follow or rebuild.
+  [[nodiscard]] const std::vector<Index<Dim>>& changed_tiles() const { return changed_tiles_; }
 
  private:
   template <class MapType>
-  void classify_tile(const MapType& map, const Index<2>& tile, CellBits::Word cells) {
+  void classify_tile(const MapType& map, const Index<Dim>& tile, CellBits::Word cells) {
     const auto states = map.states_of(tile);
     CellBits::Word free = 0;
     CellBits::Word occupied = 0;
@@ -75,19 +92,22 @@ class OccupancyLayer {
     changed_tiles_.push_back(tile);
   }
 
-  void make_room_for(const Index<2>& tile) {
-    IndexBox<2> cells = box_of_cell<2>(CellBits::cell_of(tile, 0));
-    for (int axis = 0; axis < 2; ++axis) cells.upper[axis] = cells.lower[axis] + CellBits::tile_side;
-    grid_.grow_just_to_include(cells);
-    free_.grow_to_include(cells);
-    occupied_.grow_to_include(cells);
+  void make_room_for(const Index<Dim>& tile) {
+    IndexBox<Dim> cells = box_of_cell<Dim>(CellBits::cell_of(tile, 0));
+    for (int axis = 0; axis < Dim; ++axis) cells.upper[axis] = cells.lower[axis] + CellBits::tile_side;
+    if (grid_.box().contains(cells)) return;
+    // Planners go through the whole box, so little of it should be room.
+    grid_.grow_to_include(cells, 16);
+    free_.grow_to_include(grid_.box());
+    occupied_.grow_to_include(grid_.box());
   }
 
   OccupancyThresholds thresholds_;
-  OccupancyGrid<2> grid_;
+  OccupancyGrid<Dim> grid_;
   CellBits free_;
   CellBits occupied_;
-  std::vector<Index<2>> changed_tiles_;
+  std::vector<Index<Dim>> changed_tiles_;
+  std::uint64_t update_count_ = 0;
 };
 
 }  // namespace incognita

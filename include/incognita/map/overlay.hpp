@@ -22,7 +22,7 @@ class Overlay {
 
   /// Forgets all changes and looks at `map`, as it is now, from now on. The map must outlive the use. O(tiles of the map).
   void look_at(const Map<Cell, 2>& map) {
-    map_ = &map;
+    map_ = nullptr;  // until all is done
     layers_ = map.layers();
     layers_->forget_changes();
     slots_.assign(layers_->changed.tiles().size(), no_slot);
@@ -30,10 +30,14 @@ class Overlay {
     cleared_count_ = 0;
     used_ = 0;
     stamp_ = map.stamp();
+    map_ = &map;
   }
 
-  /// Forgets all changes. O(tiles changed).
+  /// Forgets all changes. O(tiles changed). Throws std::logic_error before look_at, and when the map has grown since.
   void forget() {
+    if (map_ == nullptr || map_->layers().changed.tiles().box() != layers_->changed.tiles().box()) {
+      throw std::logic_error("Overlay::forget: the overlay has looked at no map, or the map has grown since; see look_at");
+    }
     const CellLayers& seen = map_->layers();
     const Grid<CellBits::Word, 2>& tiles = layers_->changed.tiles();
     for (const Index<2>& tile : layers_->changed_tiles) {
@@ -97,6 +101,7 @@ class Overlay {
   /// (Map::reserve makes room), and after more predicted scans than stamps are left for (5,535).
   void update(const Scan<2>& scan, const Pose2& T_map_sensor, const Eigen::Matrix2d& position_covariance_m2) {
     if (stamp_ == static_cast<ScanStamp>(-1)) throw std::length_error("Overlay::update: too many predicted scans");
+    map_->require_reach(T_map_sensor.position(), scan.range_max_m() + map_->hit_push_m());
     beams_.take(map_->cell(), map_->lattice(), scan, T_map_sensor, position_covariance_m2, map_->hit_push_m());
     if (!map_->grid().box().contains(beams_.reach())) {
       throw std::length_error("Overlay::update: a predicted scan reaches out of the map's box; see Map::reserve");

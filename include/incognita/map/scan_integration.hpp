@@ -69,7 +69,9 @@ class MapBeams {
 
   /// Updates each cell that a beam hits or passes, first all hits, then all passes (so the order of the beams does not decide
   /// which wins). `states` must hold the cells of reach(). O(cells passed), no allocation.
-  void write(const Cell& policy, Grid<typename Cell::State, Dim>& states, ScanStamp stamp) const {
+  void write(const Cell& policy, Grid<typename Cell::State, Dim>& states, ScanStamp stamp) const
+    requires(Dim != 2)
+  {
     for (const Beam& beam : beams_) {
       if (!beam.is_hit) continue;
       const Index<Dim> index = floor_of(beam.end);

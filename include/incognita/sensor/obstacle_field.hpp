@@ -175,18 +175,21 @@ class ObstacleField {
         // This ends short of the nearest square: the step onto its face is left to the exact walk.
         range += (gap - 1) * (1.0 / gap_unit_count);
         if (range >= range_max) return range_max_m;
-        x = static_cast<int>(from.x() + range * dx);
-        y = static_cast<int>(from.y() + range * dy);
+        // Never back over a line that has been crossed, whatever the rounding.
+        const auto along_x = static_cast<int>(from.x() + range * dx);
+        const auto along_y = static_cast<int>(from.y() + range * dy);
+        x = dx < 0.0 ? std::min(x, along_x) : std::max(x, along_x);
+        y = dy < 0.0 ? std::min(y, along_y) : std::max(y, along_y);
         continue;
       }
       if (gap == 0) return std::min(range * resolution_m, range_max_m);
       const double exit_x = dx != 0.0 ? (dx < 0.0 ? from.x() - x : x + 1.0 - from.x()) * per_x : never;
       const double exit_y = dy != 0.0 ? (dy < 0.0 ? from.y() - y : y + 1.0 - from.y()) * per_y : never;
       if (exit_y < exit_x) {
-        range = exit_y;
+        range = std::max(range, exit_y);
         y += dy < 0.0 ? -1 : 1;
       } else {
-        range = exit_x;
+        range = std::max(range, exit_x);
         x += dx < 0.0 ? -1 : 1;
       }
       if (range >= range_max) return range_max_m;
