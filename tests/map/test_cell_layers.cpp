@@ -14,7 +14,7 @@ namespace {
 /// Every cell of the map's box against its bits.
 template <class Cell>
 void require_layers_of(const Map<Cell>& map, const Map<Cell>& before) {
-  const CellLayers& layers = map.layers();
+  const CellLayers<2>& layers = map.layers();
   for (const CellBits* layer : {&layers.blocked, &layers.written, &layers.changed}) {
     REQUIRE(layer->tiles().box() == layers.heeding.tiles().box());
   }

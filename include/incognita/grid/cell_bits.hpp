@@ -9,61 +9,67 @@
 namespace incognita {
 
 /// Bits in tiles of 8 x 8 cells, a word each, so that walks step over tiles without a set bit at a glance and neighbours
-/// are compared 64 at a time. Safe to read from many threads at once.
-class CellBits {
+/// are compared 64 at a time. Safe to read from many threads at once. A template only so that who includes this and uses it not
+/// does not pay for its instances.
+template <int Dim>
+class BasicCellBits {
+  static_assert(Dim == 2);
+
  public:
   static constexpr int tile_shift = 3;
   static constexpr int tile_side = 1 << tile_shift;
   using Word = std::uint64_t;
 
   /// No cells yet; those that come have their bit set or not, as `fill` says.
-  CellBits(const Lattice<2>& lattice, bool fill)
-      : tiles_(Lattice<2>(lattice.resolution_m() * tile_side, lattice.origin_m()), {}, fill ? ~Word{0} : Word{0}) {}
+  BasicCellBits(const Lattice<Dim>& lattice, bool fill)
+      : tiles_(Lattice<Dim>(lattice.resolution_m() * tile_side, lattice.origin_m()), {}, fill ? ~Word{0} : Word{0}) {}
 
   /// The tile that holds a cell.
-  [[nodiscard]] static Index<2> tile_of(const Index<2>& cell) { return {cell[0] >> tile_shift, cell[1] >> tile_shift}; }
+  [[nodiscard]] static Index<Dim> tile_of(const Index<Dim>& cell) { return {cell[0] >> tile_shift, cell[1] >> tile_shift}; }
 
   /// A cell's bit in the word of its tile.
-  [[nodiscard]] static Word mask_of(const Index<2>& cell) {
+  [[nodiscard]] static Word mask_of(const Index<Dim>& cell) {
     constexpr int in_tile = tile_side - 1;
     return Word{1} << (((cell[1] & in_tile) << tile_shift) | (cell[0] & in_tile));
   }
 
   /// The cell of a bit: 0 to 63, from the lowest, in a tile.
-  [[nodiscard]] static Index<2> cell_of(const Index<2>& tile, int bit) {
+  [[nodiscard]] static Index<Dim> cell_of(const Index<Dim>& tile, int bit) {
     return {(tile[0] << tile_shift) + (bit & (tile_side - 1)), (tile[1] << tile_shift) + (bit >> tile_shift)};
   }
 
   /// The tiles with cells of a box that is not empty.
-  [[nodiscard]] static IndexBox<2> tiles_of(const IndexBox<2>& cells) {
-    const Index<2> last = tile_of({cells.upper[0] - 1, cells.upper[1] - 1});
+  [[nodiscard]] static IndexBox<Dim> tiles_of(const IndexBox<Dim>& cells) {
+    const Index<Dim> last = tile_of({cells.upper[0] - 1, cells.upper[1] - 1});
     return {tile_of(cells.lower), {last[0] + 1, last[1] + 1}};
   }
 
-  [[nodiscard]] bool has_room_for(const IndexBox<2>& cells) const {
+  [[nodiscard]] bool has_room_for(const IndexBox<Dim>& cells) const {
     return cells.empty() || tiles_.box().contains(tiles_of(cells));
   }
 
   /// Makes room for the cells of a box.
-  void grow_to_include(const IndexBox<2>& cells) {
+  void grow_to_include(const IndexBox<Dim>& cells) {
     if (!has_room_for(cells)) tiles_.grow_to_include(tiles_of(cells));
   }
 
-  [[nodiscard]] bool get(const Index<2>& cell) const { return (tiles_.value(tile_of(cell)) & mask_of(cell)) != 0; }
+  [[nodiscard]] bool get(const Index<Dim>& cell) const { return (tiles_.value(tile_of(cell)) & mask_of(cell)) != 0; }
 
   /// The cell must lie within what there is room for.
-  void set(const Index<2>& cell, bool value) {
+  void set(const Index<Dim>& cell, bool value) {
     Word& word = tiles_[tiles_.offset_of(tile_of(cell))];
     word = value ? word | mask_of(cell) : word & ~mask_of(cell);
   }
 
   /// The words, one a tile.
-  [[nodiscard]] const Grid<Word, 2>& tiles() const { return tiles_; }
-  [[nodiscard]] Grid<Word, 2>& tiles() { return tiles_; }
+  [[nodiscard]] const Grid<Word, Dim>& tiles() const { return tiles_; }
+  [[nodiscard]] Grid<Word, Dim>& tiles() { return tiles_; }
 
  private:
-  Grid<Word, 2> tiles_;
+  Grid<Word, Dim> tiles_;
 };
+
+using CellBits = BasicCellBits<2>;
 
 /// The cells of a tile that lie in a box.
 [[nodiscard]] inline CellBits::Word cells_of_tile(const Index<2>& tile, const IndexBox<2>& box) {

@@ -9,18 +9,21 @@
 namespace incognita {
 
 /// Bits over the cells of a map. All layers have the same tiles, so the offset of a tile's word in one is its offset in all.
+template <int Dim>
 struct CellLayers {
-  explicit CellLayers(const Lattice<2>& lattice)
+  static_assert(Dim == 2);
+
+  explicit CellLayers(const Lattice<Dim>& lattice)
       : heeding(lattice, true), blocked(lattice, false), written(lattice, false), changed(lattice, false) {}
 
   CellBits heeding;                     ///< a pass may change the cell; most cells of most scans ignore passes
   CellBits blocked;                     ///< predicted rays end here
   CellBits written;                     ///< by any scan; the states of the others are as they were made
   CellBits changed;                     ///< written since changes were last forgotten
-  std::vector<Index<2>> changed_tiles;  ///< the tiles with a cell in `changed`, in the order of their first change
+  std::vector<Index<Dim>> changed_tiles;  ///< the tiles with a cell in `changed`, in the order of their first change
 
   /// Makes room for the cells of a box.
-  void grow_to_include(const IndexBox<2>& cells) {
+  void grow_to_include(const IndexBox<Dim>& cells) {
     if (changed.has_room_for(cells)) return;
     CellLayers grown = *this;  // so that all grow or none
     for (CellBits* layer : {&grown.heeding, &grown.blocked, &grown.written, &grown.changed}) layer->grow_to_include(cells);
@@ -28,7 +31,7 @@ struct CellLayers {
   }
 
   /// Marks cells of a tile as changed; returns those that were not.
-  CellBits::Word mark_changed(Offset place, const Index<2>& tile, CellBits::Word cells) {
+  CellBits::Word mark_changed(Offset place, const Index<Dim>& tile, CellBits::Word cells) {
     CellBits::Word& word = changed.tiles()[place];
     if (word == 0) changed_tiles.push_back(tile);
     const CellBits::Word fresh = cells & ~word;
@@ -38,7 +41,7 @@ struct CellLayers {
   }
 
   void forget_changes() {
-    for (const Index<2>& tile : changed_tiles) changed.tiles()[changed.tiles().offset_of(tile)] = 0;
+    for (const Index<Dim>& tile : changed_tiles) changed.tiles()[changed.tiles().offset_of(tile)] = 0;
     changed_tiles.clear();
   }
 };

@@ -63,7 +63,7 @@ class Map {
   [[nodiscard]] ScanStamp stamp() const { return stamp_; }
 
   /// What is known of the cells of a plane in one bit each; its changes are those of the last update.
-  [[nodiscard]] const CellLayers& layers() const
+  [[nodiscard]] const CellLayers<Dim>& layers() const
     requires(Dim == 2)
   {
     return layers_;
@@ -127,6 +127,15 @@ class Map {
   struct NoLayers {
     explicit NoLayers(const Lattice<Dim>&) {}
   };
+  template <int OfDim>
+  struct LayersOf {
+    using type = NoLayers;
+  };
+  template <int OfDim>
+    requires(OfDim == 2)
+  struct LayersOf<OfDim> {
+    using type = CellLayers<OfDim>;
+  };
 
   /// What MapBeams::write asks for.
   struct Access {
@@ -171,7 +180,7 @@ class Map {
   Cell cell_;
   MapParams params_;
   Grid<State, Dim> grid_;
-  std::conditional_t<Dim == 2, CellLayers, NoLayers> layers_{lattice()};
+  typename LayersOf<Dim>::type layers_{lattice()};
   MapBeams<Cell, Dim> beams_;  // scratch
   ScanStamp stamp_ = 0;
   std::uint64_t update_count_ = 0;

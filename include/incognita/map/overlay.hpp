@@ -38,7 +38,7 @@ class Overlay {
     if (map_ == nullptr || map_->layers().changed.tiles().box() != layers_->changed.tiles().box()) {
       throw std::logic_error("Overlay::forget: the overlay has looked at no map, or the map has grown since; see look_at");
     }
-    const CellLayers& seen = map_->layers();
+    const CellLayers<2>& seen = map_->layers();
     const Grid<CellBits::Word, 2>& tiles = layers_->changed.tiles();
     for (const Index<2>& tile : layers_->changed_tiles) {
       const Offset place = tiles.offset_of(tile);
@@ -57,7 +57,7 @@ class Overlay {
   [[nodiscard]] const Map<Cell, 2>& map() const { return *map_; }
 
   /// The cells' layers as the predicted scans leave them; `changed` are the cells that differ from the map, or may.
-  [[nodiscard]] const CellLayers& layers() const { return *layers_; }
+  [[nodiscard]] const CellLayers<2>& layers() const { return *layers_; }
 
   /// The predicted log-odds of a cell; 0 outside of the map's box.
   [[nodiscard]] float log_odds(const Index<2>& index) const {
@@ -168,7 +168,7 @@ class Overlay {
 
   const Map<Cell, 2>* map_ = nullptr;
   MapBeams<Cell, 2> beams_;            // scratch
-  std::optional<CellLayers> layers_;
+  std::optional<CellLayers<2>> layers_;
   std::vector<std::uint32_t> slots_;     // where the states of a changed tile begin, by the tile's place
   std::vector<CellBits::Word> cleared_;  // cells that have no state of their own, likewise
   std::size_t cleared_count_ = 0;

@@ -92,7 +92,7 @@ class MapBeams {
   /// `cells` are about to be written, `fresh` for the first time since changes were forgotten; states.clear(place, tile, cells)
   /// makes them policy.cleared(). O(cells passed that do not ignore passes, and tiles passed).
   template <class States>
-  void write(const Cell& policy, CellLayers& layers, float blocked_above, ScanStamp stamp, States&& states)
+  void write(const Cell& policy, CellLayers<Dim>& layers, float blocked_above, ScanStamp stamp, States&& states)
     requires(Dim == 2)
   {
     using Word = CellBits::Word;
