@@ -126,7 +126,8 @@ class MapBeams {
     std::size_t met_count = 0;
     met_.resize(std::max(met_.size(), 2 * count + 4));
     for (std::size_t i = 0; i < count; ++i) {
-      const auto& [b, column] = possible_[i];
+      const std::uint32_t b = possible_[i].beam;
+      const int column = possible_[i].column;
       std::array<SegmentWalk::TileCells, 2> found;
       if (beams_[b].walk.find_set(layers.heeding, column, found)) {
         for (const SegmentWalk::TileCells& tile : found) {

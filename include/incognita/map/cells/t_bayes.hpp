@@ -114,7 +114,8 @@ class TBayes {
     const float eroded = erodes ? -params_.erosion_log_odds : 0.0F;
     add(state, is_saturated ? eroded : std::min(0.0F, change));
     state.settled_by = erodes ? stamp : state.settled_by;
-    state.hits = erodes & (state.log_odds < 0.0F) ? std::uint8_t{0} : state.hits;
+    const bool starts_anew = erodes & (state.log_odds < 0.0F);
+    state.hits = starts_anew ? std::uint8_t{0} : state.hits;
   }
 
   /// Free beyond doubt, and not saturated with hits.
