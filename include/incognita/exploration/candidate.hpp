@@ -82,12 +82,7 @@ template <int Dim>
       }
     }
   }
-  const auto before = [](const Index<Dim>& a, const Index<Dim>& b) {  // storage order
-    int axis = Dim - 1;
-    while (axis > 0 && a[axis] == b[axis]) --axis;
-    return a[axis] < b[axis];
-  };
-  std::sort(unknown.begin(), unknown.end(), before);
+  std::sort(unknown.begin(), unknown.end(), is_stored_before<Dim>);
   unknown.erase(std::unique(unknown.begin(), unknown.end(), equal<Index<Dim>>), unknown.end());
   return unknown;
 }

@@ -81,11 +81,6 @@ template <int Dim>
 /// neighbours are in the same order, so one pass over both finds those that are cells too.
 template <int Dim>
 [[nodiscard]] std::vector<std::vector<Index<Dim>>> touching_groups(const std::vector<Index<Dim>>& cells) {
-  const auto before = [](const Index<Dim>& a, const Index<Dim>& b) {
-    int axis = Dim - 1;
-    while (axis > 0 && a[axis] == b[axis]) --axis;
-    return a[axis] < b[axis];
-  };
   // Each cell points to an earlier one of its group, the first to itself.
   std::vector<std::size_t> earlier(cells.size());
   std::iota(earlier.begin(), earlier.end(), std::size_t{0});
@@ -94,11 +89,11 @@ template <int Dim>
     return cell;
   };
   for (const Index<Dim>& step : neighbor_steps<Dim>(Adjacency::corners)) {
-    if (!before(Index<Dim>::Zero(), step)) continue;  // the way back
+    if (!is_stored_before<Dim>(Index<Dim>::Zero(), step)) continue;  // the way back
     std::size_t other = 0;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
       const Index<Dim> neighbor = cells[cell] + step;
-      while (other < cells.size() && before(cells[other], neighbor)) ++other;
+      while (other < cells.size() && is_stored_before<Dim>(cells[other], neighbor)) ++other;
       if (other == cells.size()) break;
       if (!equal(cells[other], neighbor)) continue;
       const auto [first, last] = std::minmax({first_of(cell), first_of(other)});

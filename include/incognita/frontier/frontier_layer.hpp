@@ -52,8 +52,7 @@ class FrontierLayer {
         cells.push_back(CellBits::cell_of(tile, std::countr_zero(left)));
       }
     }
-    std::sort(cells.begin(), cells.end(),
-              [](const Index<Dim>& a, const Index<Dim>& b) { return a[1] != b[1] ? a[1] < b[1] : a[0] < b[0]; });
+    std::sort(cells.begin(), cells.end(), is_stored_before<Dim>);
     return cells;
   }
 

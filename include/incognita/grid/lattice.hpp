@@ -18,6 +18,14 @@ using Point = Eigen::Matrix<double, Dim, 1>;
 template <int Dim>
 using Index = Eigen::Matrix<int, Dim, 1>;
 
+/// Whether a cell comes before another where grids store them: x fastest, the last axis slowest.
+template <int Dim>
+[[nodiscard]] bool is_stored_before(const Index<Dim>& a, const Index<Dim>& b) {
+  int axis = Dim - 1;
+  while (axis > 0 && a[axis] == b[axis]) --axis;
+  return a[axis] < b[axis];
+}
+
 /// A box of cells, half open.
 template <int Dim>
 using IndexBox = Box<Index<Dim>>;
