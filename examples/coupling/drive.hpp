@@ -99,7 +99,7 @@ struct Drive {
     if (step % (kStepsPerMetre / scans_per_m) == 0) {
       workspace.overlay.look_at(map);
       incognita::predict_scan(belief.pose.position(), workspace);
-      belief = filter.imagine_scan(belief, workspace.hits, workspace.scan.size(), 1.0);
+      belief = filter.imagine_scan(belief, workspace.hits, workspace.beams.directions.size(), 1.0);
       map.update(scene.scan(belief.pose.position(), beams), belief.pose, belief.covariance);
     }
     beliefs.push_back(belief);

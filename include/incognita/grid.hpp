@@ -2,7 +2,7 @@
 /// holds values on a box of its cells and grows in any direction without moving the world; `traverse` walks
 /// the cells of a segment. Over a grid: exact Euclidean distances, connected components, the region around a
 /// seed. All are generic over two and three dimensions; a `FloorPlan` is a grid of what a building is made
-/// of. In the plane `CellBits` holds a bit a cell, and `visit_set` and `first_set` walk a segment over the cells whose bit
+/// of. In the plane `CellBits` holds a bit a cell, and `SegmentWalk` with `visit_set` walks a segment over the cells whose bit
 /// is set.
 #pragma once
 

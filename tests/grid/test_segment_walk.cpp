@@ -53,13 +53,19 @@ std::vector<Index<2>> expected_cells(const Lattice<2>& lattice, const Segment& s
   return cells;
 }
 
+void append_cells(std::vector<Index<2>>& to, const Index<2>& tile, CellBits::Word cells) {
+  for (CellBits::Word left = cells; left != 0; left &= left - 1U) {
+    to.push_back(CellBits::cell_of(tile, std::countr_zero(left)));
+  }
+}
+
 /// The cells of a segment that are set, as the walk has them; sorted.
 std::vector<Index<2>> walked_cells(const CellBits& bits, const Lattice<2>& lattice, const Segment& segment) {
   std::vector<Index<2>> cells;
-  visit_set(bits, lattice.to_cells(segment.from), lattice.to_cells(segment.to), [&](const SegmentWalk::TileCells& tile) {
-    for (CellBits::Word left = tile.cells; left != 0; left &= left - 1U) {
-      cells.push_back(CellBits::cell_of(tile.tile, std::countr_zero(left)));
-    }
+  const Point<2> from = lattice.to_cells(segment.from);
+  const Point<2> to = lattice.to_cells(segment.to);
+  visit_set(bits, SegmentWalk(from, to, true), from, to, [&](const SegmentWalk::TileCells& tile) {
+    append_cells(cells, tile.tile, tile.cells);
     return true;
   });
   std::sort(cells.begin(), cells.end(), before);
@@ -91,11 +97,14 @@ TEST_CASE("A walk over set bits meets the cells of traverse, at corners and alon
   }
 }
 
-TEST_CASE("The first set cell of a segment is the first that traverse meets", "[grid]") {
+TEST_CASE("Of a segment's cells a walk tells the first that is set, and those before it, as traverse meets them", "[grid]") {
   Random random(4);
   const Lattice<2> lattice(kCell, {0.03, -0.015});
+  const IndexBox<2> box{{-260, -260}, {260, 260}};
+  CellBits all(lattice, true);
+  all.grow_to_include(box);
   CellBits bits(lattice, false);
-  bits.grow_to_include({{-260, -260}, {260, 260}});
+  bits.grow_to_include(box);
   for (int n = 0; n < 3000; ++n) {
     bits.set({static_cast<int>(random.uniform(-130.0, 130.0)), static_cast<int>(random.uniform(-130.0, 130.0))}, true);
   }
@@ -103,13 +112,30 @@ TEST_CASE("The first set cell of a segment is the first that traverse meets", "[
   for (int draw = 0; draw < 60000; ++draw) {
     const Segment segment = random_segment(random, draw % 7);
     std::optional<Index<2>> expected;
+    std::vector<Index<2>> expected_before;
     traverse<2>(lattice, segment.from, segment.to, [&](const Index<2>& cell) {
-      if (bits.get(cell)) expected = cell;
+      bits.get(cell) ? static_cast<void>(expected = cell) : expected_before.push_back(cell);
       return !expected;
     });
+    std::sort(expected_before.begin(), expected_before.end(), before);
+
+    const Point<2> from = lattice.to_cells(segment.from);
+    const Point<2> to = lattice.to_cells(segment.to);
+    const SegmentWalk walk(from, to, true);
+    std::optional<Index<2>> first;
+    std::vector<Index<2>> cells_before;
+    visit_set(all, walk, from, to, [&](const SegmentWalk::TileCells& passed) {
+      SegmentWalk::TileCells set = passed;
+      set.cells &= bits.tiles()[passed.place];
+      if (set.cells != 0) first = walk.first_of(set);
+      append_cells(cells_before, passed.tile, first ? walk.cells_before(passed, *first) : passed.cells);
+      return !first;
+    });
+    std::sort(cells_before.begin(), cells_before.end(), before);
     CAPTURE(draw, segment.from, segment.to);
-    REQUIRE(first_set(bits, lattice.to_cells(segment.from), lattice.to_cells(segment.to)) == expected);
-    met += static_cast<int>(expected.has_value());
+    REQUIRE(first == expected);
+    REQUIRE(cells_before == expected_before);
+    met += static_cast<int>(first.has_value());
   }
   REQUIRE(met > 10000);
   REQUIRE(met < 50000);

@@ -15,7 +15,6 @@
 #include "incognita/core/error.hpp"
 #include "incognita/entropy/log_odds_table.hpp"
 #include "incognita/estimation/estimator.hpp"
-#include "incognita/grid/segment_walk.hpp"
 #include "incognita/map/overlay.hpp"
 #include "incognita/planning/polyline.hpp"
 
@@ -45,14 +44,14 @@ template <CellPolicy Cell>
 struct GainWorkspace {
   Overlay<Cell> overlay;
   bool has_looked = false;  ///< used by evaluate_candidates
-  Scan<2> scan{BeamPattern<2>{}};
+  BeamPattern<2> beams;
   std::vector<RayObservation> hits;
 
-  /// Makes `scan` the one that `params` ask for.
+  /// Makes `beams` those that `params` ask for.
   void prepare(const GainParams& params) {
-    const auto beams = static_cast<std::size_t>(params.beams);
-    if (scan.size() == beams && scan.range_max_m() == params.range_max_m) return;
-    scan = Scan<2>(circular_beams(beams, params.range_max_m));
+    const auto count = static_cast<std::size_t>(params.beams);
+    if (beams.directions.size() == count && beams.range_max_m == params.range_max_m) return;
+    beams = circular_beams(count, params.range_max_m);
   }
 };
 
@@ -68,49 +67,34 @@ struct RayInterval {
   for (int axis = 0; axis < 2; ++axis) {
     if (direction[axis] == 0.0) continue;
     const double low_m = lattice.origin_m()[axis] + index[axis] * lattice.resolution_m();
-    const double a = (low_m - origin[axis]) / direction[axis];
-    const double b = (low_m + lattice.resolution_m() - origin[axis]) / direction[axis];
+    const double per_m = 1.0 / direction[axis];
+    const double a = (low_m - origin[axis]) * per_m;
+    const double b = a + lattice.resolution_m() * per_m;
     interval.enter_m = std::max(interval.enter_m, std::min(a, b));
     interval.leave_m = std::min(interval.leave_m, std::max(a, b));
   }
   return interval;
 }
 
-/// Predicts the scan that `workspace.scan`'s beams would read at `position`, in the axes of the map, from the overlay: a
-/// beam ends in the first cell that is blocked (see MapParams). The cells that beams hit go into `workspace.hits`. Throws
-/// std::length_error unless all within the range lies in the map's box (Map::reserve).
+/// Predicts the scan that `workspace.beams` would read at `position`, in the axes of the map (Overlay::cast). A hit is read in
+/// the middle of the beam's way through the blocked cell; a beam whose cell is too near or too far to be measured so is left
+/// out. The cells that beams hit go into `workspace.hits`. Throws as Overlay::cast.
 template <CellPolicy Cell>
 void predict_scan(const Eigen::Vector2d& position, GainWorkspace<Cell>& workspace) {
-  const Overlay<Cell>& overlay = workspace.overlay;
+  Overlay<Cell>& overlay = workspace.overlay;
   const Lattice<2>& lattice = overlay.map().lattice();
   const double push_m = overlay.map().hit_push_m();
-  const Point<2> origin = lattice.to_cells(position);
-  Scan<2>& scan = workspace.scan;
-  overlay.map().require_reach(position, scan.range_max_m());
-  const Box<Eigen::Vector2d> reach_m = Box<Eigen::Vector2d>{position, position}.padded(scan.range_max_m());
-  if (!overlay.map().grid().box().contains(lattice.cells_of(reach_m).padded(1))) {
-    throw std::length_error("predict_scan: a beam may reach out of the map's box; see Map::reserve");
-  }
   workspace.hits.clear();
-  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    const Eigen::Vector2d& direction = scan.direction(beam);
-    scan.set_range_m(beam, scan.range_max_m());
-    const Point<2> end = lattice.to_cells(sum(position, scaled(direction, scan.range_max_m())));
-    const std::optional<Index<2>> index = first_set(overlay.layers().blocked, origin, end);
-    if (!index) continue;
-    // The reading that puts the hit in the middle of the beam's way through the cell.
-    const RayInterval interval = ray_through_cell(lattice, *index, position, direction);
+  overlay.cast(workspace.beams, position, [&](const Eigen::Vector2d& direction, const Index<2>& index) {
+    const RayInterval interval = ray_through_cell(lattice, index, position, direction);
     const double range_m = 0.5 * (interval.enter_m + interval.leave_m) - push_m;
-    const Eigen::Vector2d to_cell = difference(lattice.center_m(*index), position);
+    const Eigen::Vector2d to_cell = difference(lattice.center_m(index), position);
     const double distance_m = norm(to_cell);
-    if (range_m > 0.0 && range_m < scan.range_max_m() && distance_m > 0.0) {
-      scan.set_range_m(beam, range_m);
-      workspace.hits.push_back({{to_cell[0] / distance_m, to_cell[1] / distance_m}, range_m + push_m - distance_m,
-                                probability_of_log_odds(static_cast<double>(overlay.log_odds(*index)))});
-    } else {
-      scan.set_range_m(beam, 0.0);  // the cell is too near to be measured: the beam is left out
-    }
-  }
+    if (!(range_m > 0.0 && range_m < workspace.beams.range_max_m && distance_m > 0.0)) return 0.0;
+    workspace.hits.push_back({{to_cell[0] / distance_m, to_cell[1] / distance_m}, range_m + push_m - distance_m,
+                              probability_of_log_odds(static_cast<double>(overlay.log_odds(index)))});
+    return range_m;
+  });
 }
 
 /// H(map) - H(map after the scans predicted along `path`), in nats: (16), or (18), BIG, with the entropy table of
@@ -133,8 +117,8 @@ template <CellPolicy Cell, class Filter>
     belief = filter.imagine_motion(belief, belief.pose.inverse() * next, duration_s);
     predict_scan(to, workspace);
     const double scan_count = std::max(1.0, duration_s * params.scan_rate_hz);
-    belief = filter.imagine_scan(belief, workspace.hits, workspace.scan.size(), scan_count);
-    workspace.overlay.update(workspace.scan, Pose2{to[0], to[1], 0.0}, position_covariance(belief.covariance));
+    belief = filter.imagine_scan(belief, workspace.hits, workspace.beams.directions.size(), scan_count);
+    workspace.overlay.write_cast(position_covariance(belief.covariance));
   };
 
   bool is_start = true;

@@ -26,6 +26,24 @@ template <int Dim>
   return a[axis] < b[axis];
 }
 
+namespace detail {
+
+/// std::floor is a call where no option promises SSE 4.1.
+[[nodiscard]] inline int floor_to_int(double value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - static_cast<int>(value < static_cast<double>(truncated));
+}
+
+}  // namespace detail
+
+/// The cell that holds a point given in lattice coordinates, within 2^31 cells of the origin.
+template <int Dim>
+[[nodiscard]] Index<Dim> cell_holding(const Point<Dim>& at) {
+  Index<Dim> index;
+  for (int axis = 0; axis < Dim; ++axis) index[axis] = detail::floor_to_int(at[axis]);
+  return index;
+}
+
 /// A box of cells, half open.
 template <int Dim>
 using IndexBox = Box<Index<Dim>>;
@@ -63,11 +81,7 @@ class Lattice {
 
   /// The cell that holds a point. The point must lie within 2^31 cells of the origin.
   [[nodiscard]] Index<Dim> index_of(const Point<Dim>& point_m) const {
-    Index<Dim> index;
-    for (int axis = 0; axis < Dim; ++axis) {
-      index[axis] = static_cast<int>(std::floor((point_m[axis] - origin_m_[axis]) * per_m_));
-    }
-    return index;
+    return cell_holding<Dim>(to_cells(point_m));
   }
 
   [[nodiscard]] Point<Dim> center_m(const Index<Dim>& index) const {

@@ -6,21 +6,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include "incognita/grid/cell_bits.hpp"
 
 namespace incognita {
-
-namespace detail {
-
-/// std::floor is a call where no option promises SSE 4.1.
-[[nodiscard]] inline int floor_to_int(double value) {
-  const int truncated = static_cast<int>(value);
-  return truncated - static_cast<int>(value < static_cast<double>(truncated));
-}
-
-}  // namespace detail
 
 /// A segment between cells within 2^30 of the lattice's origin, made ready to be walked: exactly the cells that traverse_cells
 /// visits (but where its ends differ by a subnormal number), a column of tiles at a time. A column of
@@ -138,6 +127,19 @@ class SegmentWalk {
     columns |= columns >> 8;
     const int column = first_bit(columns & 0xFF, step_ > 0);
     return CellBits::cell_of(met.tile, first_bit(met.cells & (each_byte << column), is_rising));
+  }
+
+  /// Of some cells of a tile that the segment passes, those that it passes before one of them.
+  [[nodiscard]] CellBits::Word cells_before(const TileCells& met, const Index<2>& cell) const {
+    const auto columns_up_to = [this](int at) { return is_steep_ ? rows_up_to<0>(at) : rows_up_to<1>(at); };
+    const auto columns_from = [this](int at) { return is_steep_ ? rows_from<0>(at) : rows_from<1>(at); };
+    const int column = cell[is_steep_];
+    const CellBits::Word in_column = columns_up_to(column) & columns_from(column);
+    const int row = cell[!is_steep_];
+    const CellBits::Word rows = last_row_ >= first_row_ ? (is_steep_ ? rows_up_to<1>(row) : rows_up_to<0>(row))
+                                                        : (is_steep_ ? rows_from<1>(row) : rows_from<0>(row));
+    const CellBits::Word up_to = ((step_ > 0 ? columns_up_to(column) : columns_from(column)) & ~in_column) | (in_column & rows);
+    return met.cells & up_to & ~CellBits::mask_of(cell);
   }
 
  private:
@@ -328,31 +330,17 @@ class SegmentWalk {
   bool is_steep_;
 };
 
-/// Calls visit(SegmentWalk::TileCells) for each tile with cells of the segment between two points in lattice coordinates that
+/// Calls visit(SegmentWalk::TileCells) for each tile with cells of `walk`, between two points in lattice coordinates, that
 /// are set, in the order of the walk, until visit returns false. The tiles of the segment's cells and of those beside them
 /// must be there. No allocation.
 template <class Visit>
-void visit_set(const CellBits& bits, const Point<2>& from, const Point<2>& to, Visit&& visit) {
-  const SegmentWalk walk(from, to, true);
+void visit_set(const CellBits& bits, const SegmentWalk& walk, const Point<2>& from, const Point<2>& to, Visit&& visit) {
   walk.survey(bits, [&](int column, bool may_meet) {
     if (!may_meet) return true;
     std::array<SegmentWalk::TileCells, 2> met;
     if (!walk.find_set(bits, column, met)) return walk.visit_exactly(bits, column, from, to, visit);
     return (met[0].cells == 0 || visit(met[0])) && (met[1].cells == 0 || visit(met[1]));
   });
-}
-
-/// The first cell of a segment, between points in lattice coordinates, whose bit is set; none where there is none. The tiles
-/// as in visit_set. O(tiles passed before).
-template <class Bits>
-[[nodiscard]] std::optional<Index<2>> first_set(const Bits& bits, const Point<2>& from, const Point<2>& to) {
-  const SegmentWalk walk(from, to, true);
-  std::optional<Index<2>> first;
-  visit_set(bits, from, to, [&](const SegmentWalk::TileCells& met) {
-    first = walk.first_of(met);
-    return false;
-  });
-  return first;
 }
 
 }  // namespace incognita

@@ -14,12 +14,8 @@ namespace incognita {
 template <int Dim, class Visit>
 void traverse_cells(const Point<Dim>& from, const Point<Dim>& to, Visit&& visit) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  Index<Dim> index;
-  Index<Dim> last;
-  for (int axis = 0; axis < Dim; ++axis) {
-    index[axis] = static_cast<int>(std::floor(from[axis]));
-    last[axis] = static_cast<int>(std::floor(to[axis]));
-  }
+  Index<Dim> index = cell_holding<Dim>(from);
+  const Index<Dim> last = cell_holding<Dim>(to);
 
   // The segment parameter of the next crossing is first + crossed * period: computed anew from the integer count at
   // each step, so rounding does not add up along the ray.

@@ -16,7 +16,7 @@ struct CellLayers {
   explicit CellLayers(const Lattice<Dim>& lattice)
       : heeding(lattice, true), blocked(lattice, false), written(lattice, false), changed(lattice, false) {}
 
-  CellBits heeding;                     ///< a pass may change the cell; most cells of most scans ignore passes
+  CellBits heeding;                     ///< a pass may change the cell, or it is blocked; most cells of most scans are neither
   CellBits blocked;                     ///< predicted rays end here
   CellBits written;                     ///< by any scan; the states of the others are as they were made
   CellBits changed;                     ///< written since changes were last forgotten
@@ -30,14 +30,20 @@ struct CellLayers {
     *this = std::move(grown);
   }
 
-  /// Marks cells of a tile as changed; returns those that were not.
-  CellBits::Word mark_changed(Offset place, const Index<Dim>& tile, CellBits::Word cells) {
+  /// Marks cells of a tile as changed.
+  void mark_changed(Offset place, const Index<Dim>& tile, CellBits::Word cells) {
     CellBits::Word& word = changed.tiles()[place];
     if (word == 0) changed_tiles.push_back(tile);
-    const CellBits::Word fresh = cells & ~word;
     word |= cells;
     written.tiles()[place] |= cells;
-    return fresh;
+  }
+
+  /// Says of some cells of a tile which of them are blocked and which ignore passes.
+  void assign(Offset place, CellBits::Word cells, CellBits::Word are_blocked, CellBits::Word ignore_passes) {
+    CellBits::Word& heeds = heeding.tiles()[place];
+    CellBits::Word& blocks = blocked.tiles()[place];
+    heeds = (heeds & ~cells) | (cells & (are_blocked | ~ignore_passes));
+    blocks = (blocks & ~cells) | are_blocked;
   }
 
   void forget_changes() {

@@ -141,7 +141,7 @@ class Map {
   struct Access {
     Map& map;
 
-    [[nodiscard]] auto open(Offset /*place*/, const Index<2>& tile, CellBits::Word /*cells*/, CellBits::Word /*fresh*/) {
+    [[nodiscard]] auto open(Offset /*place*/, const Index<2>& tile, CellBits::Word /*cells*/) {
       return map.tile_states(map.grid_.values().data(), tile);
     }
     void clear(Offset /*place*/, const Index<2>& tile, CellBits::Word cells) {

@@ -1,6 +1,7 @@
 /// What a map would be after scans that were not taken: changes kept beside the map, which stays as it is.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace incognita {
 
-/// Cells of a plane are copied from the map when a predicted scan first changes them. Starting over costs as much as what
+/// A tile of a plane's cells is copied from the map when a predicted scan first changes one of them. Starting over costs as much as what
 /// was changed. Memory: 6 bits a cell of the map's box, and a tile of 64 states for each tile changed at once, kept for
 /// the next use. One overlay a thread; the map must not change between look_at and the last use.
 template <CellPolicy Cell>
@@ -100,7 +101,7 @@ class Overlay {
   /// Writes a predicted scan, as Map::update would. Throws std::length_error when it reaches out of the map's box
   /// (Map::reserve makes room), and after more predicted scans than stamps are left for (5,535).
   void update(const Scan<2>& scan, const Pose2& T_map_sensor, const Eigen::Matrix2d& position_covariance_m2) {
-    if (stamp_ == static_cast<ScanStamp>(-1)) throw std::length_error("Overlay::update: too many predicted scans");
+    require_stamp();
     map_->require_reach(T_map_sensor.position(), scan.range_max_m() + map_->hit_push_m());
     beams_.take(map_->cell(), map_->lattice(), scan, T_map_sensor, position_covariance_m2, map_->hit_push_m());
     if (!map_->grid().box().contains(beams_.reach())) {
@@ -110,15 +111,40 @@ class Overlay {
     beams_.write(map_->cell(), *layers_, map_->blocked_above(), stamp_, Access{*this});
   }
 
+  /// Predicts the scan that `beams`, in the axes of the map, would read at `position_m`: each ends in the first cell that is
+  /// blocked (see MapParams), or at its range. measure_m(direction, cell) tells the range that a hit of that cell is read as; a
+  /// beam for which it is not positive is left out. Nothing is written before write_cast. Throws std::length_error unless all
+  /// within the range lies in the map's box (Map::reserve), and after more predicted scans than stamps are left for (5,535).
+  template <class Measure>
+  void cast(const BeamPattern<2>& beams, const Point<2>& position_m, Measure&& measure_m) {
+    require_stamp();
+    map_->require_reach(position_m, beams.range_max_m);
+    const Box<Point<2>> reach_m = Box<Point<2>>{position_m, position_m}.padded(beams.range_max_m);
+    if (!map_->grid().box().contains(map_->lattice().cells_of(reach_m).padded(1))) {
+      throw std::length_error("Overlay::cast: a beam may reach out of the map's box; see Map::reserve");
+    }
+    beams_.cast(map_->lattice(), *layers_, beams, position_m, map_->hit_push_m(), measure_m);
+  }
+
+  /// Writes the scan that cast has predicted last, once, before anything else is done with the overlay.
+  void write_cast(const Eigen::Matrix2d& position_covariance_m2) {
+    ++stamp_;
+    beams_.write_cast(map_->cell(), *layers_, map_->blocked_above(), stamp_, position_covariance_m2, Access{*this});
+  }
+
  private:
   static constexpr std::uint32_t no_slot = static_cast<std::uint32_t>(-1);
+
+  void require_stamp() const {
+    if (stamp_ == static_cast<ScanStamp>(-1)) throw std::length_error("Overlay: too many predicted scans");
+  }
 
   /// What MapBeams::write asks for.
   struct Access {
     Overlay& overlay;
 
-    [[nodiscard]] auto open(Offset place, const Index<2>& tile, CellBits::Word cells, CellBits::Word fresh) {
-      return overlay.open(static_cast<std::size_t>(place), tile, cells, fresh);
+    [[nodiscard]] auto open(Offset place, const Index<2>& tile, CellBits::Word cells) {
+      return overlay.open(static_cast<std::size_t>(place), tile, cells);
     }
     void clear(Offset place, const Index<2>& /*tile*/, CellBits::Word cells) {
       overlay.cleared_[static_cast<std::size_t>(place)] |= cells;
@@ -126,24 +152,19 @@ class Overlay {
     }
   };
 
-  /// Access to the states of a tile, by bit; of those about to be written, fresh ones are copied from the map.
-  [[nodiscard]] auto open(std::size_t place, const Index<2>& tile, CellBits::Word cells, CellBits::Word fresh) {
+  /// Access to the states of a tile, by bit, of which `cells` are about to be written.
+  [[nodiscard]] auto open(std::size_t place, const Index<2>& tile, CellBits::Word cells) {
     std::uint32_t& slot = slots_[place];
-    if (slot == no_slot) slot = open_slot();
-    if (fresh != 0) {
-      const auto seen = map_->states_of(tile);
-      for (CellBits::Word left = fresh; left != 0; left &= left - 1U) {
-        const int bit = std::countr_zero(left);
-        states_[slot + static_cast<std::size_t>(bit)] = seen(bit);
-      }
-    }
+    if (slot == no_slot) slot = open_slot(tile);
     if constexpr (ClearingPolicy<Cell>) {
       const CellBits::Word cleared = cleared_[place] & cells;
-      for (CellBits::Word left = cleared; left != 0; left &= left - 1U) {
-        states_[slot + static_cast<std::size_t>(std::countr_zero(left))] = map_->cell().cleared();
+      if (cleared != 0) {
+        for (CellBits::Word left = cleared; left != 0; left &= left - 1U) {
+          states_[slot + static_cast<std::size_t>(std::countr_zero(left))] = map_->cell().cleared();
+        }
+        cleared_[place] &= ~cleared;
+        cleared_count_ -= static_cast<std::size_t>(std::popcount(cleared));
       }
-      cleared_[place] &= ~cleared;
-      cleared_count_ -= static_cast<std::size_t>(std::popcount(cleared));
     }
     return [states = states_.data() + slot](int bit) -> State& { return states[bit]; };
   }
@@ -159,10 +180,26 @@ class Overlay {
     }
   }
 
-  [[nodiscard]] std::uint32_t open_slot() {
+  /// Room for the states of a tile, with those that the map has.
+  [[nodiscard]] std::uint32_t open_slot(const Index<2>& tile) {
     const std::size_t slot = used_;
     used_ += 64;
     if (used_ > states_.size()) states_.resize(2 * used_);
+    const Grid<State, 2>& grid = map_->grid();
+    const Index<2> first = CellBits::cell_of(tile, 0);
+    const Index<2> end = CellBits::cell_of({tile[0] + 1, tile[1] + 1}, 0);
+    if (grid.box().contains(IndexBox<2>{first, end})) {
+      const State* row = grid.values().data() + grid.offset_of(first);
+      for (std::size_t to = slot; to < used_; to += CellBits::tile_side, row += grid.stride(1)) {
+        std::copy_n(row, CellBits::tile_side, states_.begin() + static_cast<std::ptrdiff_t>(to));
+      }
+    } else {
+      const auto seen = map_->states_of(tile);
+      for (CellBits::Word left = cells_of_tile(tile, grid.box()); left != 0; left &= left - 1U) {
+        const int bit = std::countr_zero(left);
+        states_[slot + static_cast<std::size_t>(bit)] = seen(bit);
+      }
+    }
     return static_cast<std::uint32_t>(slot);
   }
 

@@ -47,7 +47,7 @@ class MapBeams {
       const Point<Dim> direction = rotation * scan.direction(beam);
       const bool is_hit = reading == Reading::hit;
       const double range_m = scan.range_m(beam);
-      const double variance_m2 = std::max(0.0, direction.dot(position_covariance_m2 * direction));
+      const double variance_m2 = variance_along(position_covariance_m2, direction);
       const double length_m = is_hit ? range_m + push_m : range_m;
       const Point<Dim> end = lattice.to_cells(origin_m + direction * length_m);
       beams_.push_back({end, range_m, is_hit, policy.beam(variance_m2), Walk(origin_, end, !is_hit)});
@@ -62,7 +62,7 @@ class MapBeams {
   [[nodiscard]] IndexBox<Dim> reach() const {
     Box<Point<Dim>> reach{origin_, origin_};
     for (const Beam& beam : beams_) reach.stretch_to(beam.end);
-    IndexBox<Dim> cells{floor_of(reach.lower), floor_of(reach.upper)};
+    IndexBox<Dim> cells{cell_holding<Dim>(reach.lower), cell_holding<Dim>(reach.upper)};
     for (int axis = 0; axis < Dim; ++axis) ++cells.upper[axis];
     return cells.padded(1);
   }
@@ -74,11 +74,11 @@ class MapBeams {
   {
     for (const Beam& beam : beams_) {
       if (!beam.is_hit) continue;
-      const Index<Dim> index = floor_of(beam.end);
+      const Index<Dim> index = cell_holding<Dim>(beam.end);
       policy.hit(states[states.offset_of(index)], beam.constants, residual_m(index, beam.range_m + push_m_), stamp);
     }
     for (const Beam& beam : beams_) {
-      const Index<Dim> end = floor_of(beam.end);
+      const Index<Dim> end = cell_holding<Dim>(beam.end);
       traverse_cells<Dim>(origin_, beam.end, [&](const Index<Dim>& index) {
         typename Cell::State& state = states[states.offset_of(index)];
         if ((beam.is_hit && equal(index, end)) || policy.ignores_passes(state)) return;
@@ -88,87 +88,74 @@ class MapBeams {
   }
 
   /// The same in the plane, by way of the cells' layers, which are kept up to date: of cells that ignore passes nothing is
-  /// looked at but a bit. `states` gives access: states.open(place, tile, cells, fresh) to a tile's states by bit, of which
-  /// `cells` are about to be written, `fresh` for the first time since changes were forgotten; states.clear(place, tile, cells)
-  /// makes them policy.cleared(). O(cells passed that do not ignore passes, and tiles passed).
+  /// looked at but a bit. `states` gives access: states.open(place, tile, cells) to a tile's states by bit, of which `cells`
+  /// are about to be written; states.clear(place, tile, cells) makes them policy.cleared(). O(cells passed that do not ignore
+  /// passes, and tiles passed).
   template <class States>
   void write(const Cell& policy, CellLayers<Dim>& layers, float blocked_above, ScanStamp stamp, States&& states)
     requires(Dim == 2)
   {
-    using Word = CellBits::Word;
-    Grid<Word, 2>& heeding = layers.heeding.tiles();
-    Grid<Word, 2>& blocked = layers.blocked.tiles();
-    for (const Beam& beam : beams_) {
-      if (!beam.is_hit) continue;
-      const Index<2> end = floor_of(beam.end);
-      const Index<2> tile = CellBits::tile_of(end);
-      const Offset place = heeding.offset_of(tile);
-      const Word cell = CellBits::mask_of(end);
-      const Word fresh = layers.mark_changed(place, tile, cell);
-      typename Cell::State& state = states.open(place, tile, cell, fresh)(std::countr_zero(cell));
-      policy.hit(state, beam.constants, residual_m(end, beam.range_m + push_m_), stamp);
-      heeding[place] = policy.ignores_passes(state) ? heeding[place] & ~cell : heeding[place] | cell;
-      blocked[place] = Cell::log_odds(state) > blocked_above ? blocked[place] | cell : blocked[place] & ~cell;
-    }
-    // In three rounds over all beams, each without a branch that depends on what is met: which tiles may matter, which cells
-    // of them do, and then those cells. What a pass settles in the last round may be passed again in it, which changes nothing.
-    std::size_t count = 0;
-    for (std::size_t b = 0; b < beams_.size(); ++b) {
-      const Beam& beam = beams_[b];
-      const std::size_t needed = count + static_cast<std::size_t>(beam.walk.tile_columns());
-      if (possible_.size() < needed) possible_.resize(2 * needed);
-      beam.walk.survey(layers.heeding, [&](int column, bool may_meet) {
-        possible_[count] = {static_cast<std::uint32_t>(b), column};
-        count += static_cast<std::size_t>(may_meet);
-        return true;
-      });
-    }
-    std::size_t met_count = 0;
-    met_.resize(std::max(met_.size(), 2 * count + 4));
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t b = possible_[i].beam;
-      const int column = possible_[i].column;
-      std::array<SegmentWalk::TileCells, 2> found;
-      if (beams_[b].walk.find_set(layers.heeding, column, found)) {
-        for (const SegmentWalk::TileCells& tile : found) {
-          met_[met_count] = {tile, b};
-          met_count += static_cast<std::size_t>(tile.cells != 0);
+    write_hits(policy, layers, blocked_above, stamp, states);
+    find_heeding(layers.heeding);
+    write_passes(policy, layers, blocked_above, stamp, states);
+  }
+
+  /// Takes the beams that a sensor at `origin_m`, in the axes of the map, would read if each ended in the first cell that is
+  /// blocked, or at its range. measure_m(direction, cell) tells the range of a hit of that cell; a beam for which it is not
+  /// positive is left out. For write_cast, with the layers as they are now.
+  template <class Measure>
+  void cast(const Lattice<2>& lattice, const CellLayers<2>& layers, const BeamPattern<2>& pattern, const Point<2>& origin_m,
+            double push_m, Measure&& measure_m)
+    requires(Dim == 2)
+  {
+    origin_ = lattice.to_cells(origin_m);
+    resolution_m_ = static_cast<float>(lattice.resolution_m());
+    push_m_ = push_m;
+    beams_.clear();
+    beams_.reserve(pattern.directions.size());
+    directions_.clear();
+    met_.clear();
+    for (const Point<2>& direction : pattern.directions) {
+      const Point<2> end = lattice.to_cells(sum(origin_m, scaled(direction, pattern.range_max_m)));
+      const auto index = static_cast<std::uint32_t>(beams_.size());
+      const std::size_t met_before = met_.size();
+      beams_.push_back({end, pattern.range_max_m, false, {}, SegmentWalk(origin_, end, true)});
+      Beam& beam = beams_.back();
+      const auto meet = [&](SegmentWalk::TileCells tile) {
+        SegmentWalk::TileCells blocked = tile;
+        blocked.cells &= layers.blocked.tiles()[tile.place];
+        if (blocked.cells != 0) {
+          const Index<2> hit = beam.walk.first_of(blocked);
+          tile.cells = beam.walk.cells_before(tile, hit);
+          beam.is_hit = true;
+          beam.range_m = measure_m(direction, hit);
+          beam.end = {hit[0] + 0.5, hit[1] + 0.5};
         }
+        if (tile.cells != 0) met_.push_back({tile, index});
+        return !beam.is_hit;
+      };
+      visit_set(layers.heeding, beam.walk, origin_, end, meet);
+      if (beam.range_m > 0.0) {
+        directions_.push_back(direction);
       } else {
-        beams_[b].walk.visit_exactly(layers.heeding, column, origin_, beams_[b].end, [&](const SegmentWalk::TileCells& tile) {
-          met_[met_count++] = {tile, b};
-          return true;
-        });
-        met_.resize(std::max(met_.size(), met_count + 2 * (count - i) + 4));
+        beams_.pop_back();
+        met_.resize(met_before);
       }
     }
-    for (std::size_t i = 0; i < met_count; ++i) {
-      const auto& [place, tile, found] = met_[i].cells;
-      const Beam& beam = beams_[met_[i].beam];
-      Word cells = found & heeding[place];  // some may have been settled since
-      if constexpr (ClearingPolicy<Cell>) {
-        const Word unwritten = cells & ~layers.written.tiles()[place];
-        if (unwritten != 0 && is_cleared_by(policy, beam, tile)) {
-          static_cast<void>(layers.mark_changed(place, tile, unwritten));
-          states.clear(place, tile, unwritten);
-          heeding[place] &= ~unwritten;
-          cells &= ~unwritten;
-        }
-      }
-      if (cells == 0) continue;
-      const auto state_of = states.open(place, tile, cells, layers.mark_changed(place, tile, cells));
-      Word ignoring = 0;
-      Word blocking = 0;
-      for (Word left = cells; left != 0; left &= left - 1U) {
-        const int bit = std::countr_zero(left);
-        typename Cell::State& state = state_of(bit);
-        policy.pass(state, beam.constants, residual_m(CellBits::cell_of(tile, bit), beam.range_m), stamp);
-        ignoring |= static_cast<Word>(policy.ignores_passes(state)) << bit;
-        blocking |= static_cast<Word>(Cell::log_odds(state) > blocked_above) << bit;
-      }
-      heeding[place] &= ~ignoring;
-      blocked[place] = (blocked[place] & ~cells) | blocking;
+    report_ = {beams_.size(), pattern.directions.size() - beams_.size()};
+  }
+
+  /// Writes what cast took, as `write` would write such a scan with that covariance of its position.
+  template <class States>
+  void write_cast(const Cell& policy, CellLayers<Dim>& layers, float blocked_above, ScanStamp stamp,
+                  const Eigen::Matrix2d& position_covariance_m2, States&& states)
+    requires(Dim == 2)
+  {
+    for (std::size_t beam = 0; beam < beams_.size(); ++beam) {
+      beams_[beam].constants = policy.beam(variance_along(position_covariance_m2, directions_[beam]));
     }
+    write_hits(policy, layers, blocked_above, stamp, states);
+    write_passes(policy, layers, blocked_above, stamp, states);
   }
 
  private:
@@ -185,10 +172,94 @@ class MapBeams {
     Walk walk;
   };
 
-  [[nodiscard]] static Index<Dim> floor_of(const Point<Dim>& at) {
-    Index<Dim> index;
-    for (int axis = 0; axis < Dim; ++axis) index[axis] = detail::floor_to_int(at[axis]);
-    return index;
+  [[nodiscard]] static double variance_along(const Eigen::Matrix<double, Dim, Dim>& covariance_m2, const Point<Dim>& direction) {
+    return std::max(0.0, direction.dot(covariance_m2 * direction));
+  }
+
+  template <class States>
+  void write_hits(const Cell& policy, CellLayers<2>& layers, float blocked_above, ScanStamp stamp, States& states) const {
+    for (const Beam& beam : beams_) {
+      if (!beam.is_hit) continue;
+      const Index<2> end = cell_holding<Dim>(beam.end);
+      const Index<2> tile = CellBits::tile_of(end);
+      const Offset place = layers.heeding.tiles().offset_of(tile);
+      const CellBits::Word cell = CellBits::mask_of(end);
+      layers.mark_changed(place, tile, cell);
+      typename Cell::State& state = states.open(place, tile, cell)(std::countr_zero(cell));
+      policy.hit(state, beam.constants, residual_m(end, beam.range_m + push_m_), stamp);
+      const bool is_blocked = Cell::log_odds(state) > blocked_above;
+      layers.assign(place, cell, is_blocked ? cell : 0, policy.ignores_passes(state) ? cell : 0);
+    }
+  }
+
+  /// Finds the cells that the beams pass and that heed them, in two rounds over all beams, each without a branch that depends
+  /// on what is met: which tiles may matter, and which cells of them do.
+  void find_heeding(const CellBits& heeding) {
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < beams_.size(); ++b) {
+      const Beam& beam = beams_[b];
+      const std::size_t needed = count + static_cast<std::size_t>(beam.walk.tile_columns());
+      if (possible_.size() < needed) possible_.resize(2 * needed);
+      beam.walk.survey(heeding, [&](int column, bool may_meet) {
+        possible_[count] = {static_cast<std::uint32_t>(b), column};
+        count += static_cast<std::size_t>(may_meet);
+        return true;
+      });
+    }
+    std::size_t met_count = 0;
+    met_.resize(std::max(met_.size(), 2 * count + 4));
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t b = possible_[i].beam;
+      const int column = possible_[i].column;
+      std::array<SegmentWalk::TileCells, 2> found;
+      if (beams_[b].walk.find_set(heeding, column, found)) {
+        for (const SegmentWalk::TileCells& tile : found) {
+          met_[met_count] = {tile, b};
+          met_count += static_cast<std::size_t>(tile.cells != 0);
+        }
+      } else {
+        beams_[b].walk.visit_exactly(heeding, column, origin_, beams_[b].end, [&](const SegmentWalk::TileCells& tile) {
+          met_[met_count++] = {tile, b};
+          return true;
+        });
+        met_.resize(std::max(met_.size(), met_count + 2 * (count - i) + 4));
+      }
+    }
+    met_.resize(met_count);
+  }
+
+  /// What a pass settles may be passed again in the same round, which changes nothing.
+  template <class States>
+  void write_passes(const Cell& policy, CellLayers<2>& layers, float blocked_above, ScanStamp stamp, States& states) const {
+    using Word = CellBits::Word;
+    const Grid<Word, 2>& heeding = layers.heeding.tiles();
+    for (const Met& met : met_) {
+      const auto& [place, tile, found] = met.cells;
+      const Beam& beam = beams_[met.beam];
+      Word cells = found & heeding[place];  // some may have been settled since
+      if constexpr (ClearingPolicy<Cell>) {
+        const Word unwritten = cells & ~layers.written.tiles()[place];
+        if (unwritten != 0 && is_cleared_by(policy, beam, tile)) {
+          layers.mark_changed(place, tile, unwritten);
+          states.clear(place, tile, unwritten);
+          layers.assign(place, unwritten, 0, unwritten);
+          cells &= ~unwritten;
+        }
+      }
+      if (cells == 0) continue;
+      layers.mark_changed(place, tile, cells);
+      const auto state_of = states.open(place, tile, cells);
+      Word ignoring = 0;
+      Word blocking = 0;
+      for (Word left = cells; left != 0; left &= left - 1U) {
+        const int bit = std::countr_zero(left);
+        typename Cell::State& state = state_of(bit);
+        policy.pass(state, beam.constants, residual_m(CellBits::cell_of(tile, bit), beam.range_m), stamp);
+        ignoring |= static_cast<Word>(policy.ignores_passes(state)) << bit;
+        blocking |= static_cast<Word>(Cell::log_odds(state) > blocked_above) << bit;
+      }
+      layers.assign(place, cells, blocking, ignoring);
+    }
   }
 
   /// Whether a beam clears every cell of a tile that was never written.
@@ -228,6 +299,7 @@ class MapBeams {
     std::uint32_t beam;
   };
   std::vector<Met> met_;
+  std::vector<Point<Dim>> directions_;  // of beams that were cast
   ScanReport report_;
 };
 

@@ -38,10 +38,11 @@ namespace incognita {
   const Eigen::Vector2d way_m = difference(to_m, from_m);
   const double length_m = norm(way_m);
   const double samples = std::max(1.0, std::ceil(2.0 * length_m / field.lattice().resolution_m()));
+  const Eigen::Vector2d from = field.lattice().to_cells(from_m);
+  const Eigen::Vector2d step = scaled(difference(field.lattice().to_cells(to_m), from), 1.0 / samples);
   double cost_per_m = 0.0;
   for (double sample = 0.5; sample < samples; sample += 1.0) {
-    const Eigen::Vector2d at_m = sum(from_m, scaled(way_m, sample / samples));
-    cost_per_m += static_cast<double>(field.cost_per_m(field.lattice().index_of(at_m)));
+    cost_per_m += static_cast<double>(field.cost_per_m(cell_holding<2>(sum(from, scaled(step, sample)))));
   }
   return length_m * cost_per_m / samples;
 }

@@ -20,8 +20,7 @@ template <class Value, int Dim, class Blocks>
                                 const Point<Dim>& direction, double range_max_m, Blocks&& blocks) {
   using Axes = std::array<double, static_cast<std::size_t>(Dim)>;
   const Point<Dim> from = grid.lattice().to_cells(origin_m);
-  Index<Dim> index;
-  for (int axis = 0; axis < Dim; ++axis) index[axis] = static_cast<int>(std::floor(from[axis]));
+  Index<Dim> index = cell_holding<Dim>(from);
   if (blocks(grid.value(index))) return 0.0;
 
   // Metres along the ray for one cell along the axis, and until it leaves the present cell by that axis.
