@@ -62,7 +62,7 @@ std::size_t predicted_scans(const Candidate& candidate) {
 
 void time_evaluation(benchmark::State& state, std::size_t count, int threads) {
   const std::vector<Candidate>& decided = chooser().decision().candidates;
-  std::vector<incognita::GainWorkspace<incognita::TBayes>> workspaces;
+  incognita::CandidateScratch<incognita::TBayes> scratch;
   std::vector<Candidate> candidates(count);
   std::size_t next = 0;
   double scans = 0.0;
@@ -75,7 +75,7 @@ void time_evaluation(benchmark::State& state, std::size_t count, int threads) {
     }
     state.ResumeTiming();
     evaluate_candidates(chooser().map(), chooser().entropy(), chooser().filter(), candidates,
-                        chooser().params().gain, threads, workspaces);
+                        chooser().params().gain, threads, scratch);
     benchmark::DoNotOptimize(candidates);
   }
   state.counters["per_scan"] =

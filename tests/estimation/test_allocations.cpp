@@ -78,7 +78,7 @@ TEST_CASE("A map that has grown, what follows it, and predictions on it allocate
   OccupancyLayer occupancy(map.lattice());
   FrontierLayer frontier(map.lattice());
   EntropyLayer<EntropyTable> information(map.lattice(), entropy);
-  std::vector<GainWorkspace<TBayes>> workspaces;
+  CandidateScratch<TBayes> scratch;
   std::vector<Candidate> candidates(3);
   for (Candidate& candidate : candidates) {
     candidate.path = Polyline({Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0))});
@@ -99,7 +99,7 @@ TEST_CASE("A map that has grown, what follows it, and predictions on it allocate
     information.follow(map);
     if (is_warm) in_layers += allocations - before;
     before = allocations;
-    evaluate_candidates(map, entropy, filter, candidates, GainParams{}, 1, workspaces);
+    evaluate_candidates(map, entropy, filter, candidates, GainParams{}, 1, scratch);
     if (is_warm) in_candidates += allocations - before;
   }
   CHECK(in_update == 0);

@@ -136,21 +136,21 @@ TEST_CASE("gains of candidates are the same bits for any number of threads") {
   }
   const EntropyTable table(Behavioral{2.0});
   const DvlEkf filter;
-  const auto gains = [&](int threads, std::vector<GainWorkspace<TBayes>>& workspaces) {
+  const auto gains = [&](int threads, CandidateScratch<TBayes>& scratch) {
     for (Candidate& candidate : candidates) candidate.gain_nats = -1.0;
-    evaluate_candidates(map, table, filter, candidates, params, threads, workspaces);
+    evaluate_candidates(map, table, filter, candidates, params, threads, scratch);
     std::vector<double> result;
     for (const Candidate& candidate : candidates) result.push_back(candidate.gain_nats);
     return result;
   };
-  std::vector<GainWorkspace<TBayes>> kept;
+  CandidateScratch<TBayes> kept;
   const std::vector<double> expected = gains(1, kept);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     GainWorkspace<TBayes> alone;
     CHECK(expected[i] == information_gain(map, table, filter, candidates[i].path, params, alone));
   }
   for (const int threads : {2, 4, 3, 1, 0}) {
-    std::vector<GainWorkspace<TBayes>> fresh;
+    CandidateScratch<TBayes> fresh;
     CHECK(gains(threads, fresh) == expected);
     CHECK(gains(threads, kept) == expected);
   }

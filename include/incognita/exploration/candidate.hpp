@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -87,19 +88,37 @@ template <int Dim>
   return unknown;
 }
 
+/// Scratch of evaluate_candidates, kept from one call to the next.
+template <CellPolicy Cell>
+struct CandidateScratch {
+  struct Worker {
+    GainWorkspace<Cell> workspace;
+    bool has_looked = false;  // at the map of this call
+  };
+  std::vector<Worker> workers;
+  std::vector<std::size_t> order;
+};
+
 /// The information gain of every candidate, into its gain_nats, over `threads` threads (0: OpenMP's own number). Each
-/// candidate is evaluated by itself, so the result does not depend on the number of threads. `workspaces` is scratch.
+/// candidate is evaluated by itself, so the result does not depend on the number of threads. The longest paths come first, so that
+/// no thread is left with one in the end.
 template <CellPolicy Cell, class Filter>
 void evaluate_candidates(const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
                          std::vector<Candidate>& candidates, const GainParams& params, int threads,
-                         std::vector<GainWorkspace<Cell>>& workspaces) {
-  workspaces.resize(std::max(workspaces.size(), static_cast<std::size_t>(worker_count(threads))));
-  for (GainWorkspace<Cell>& workspace : workspaces) workspace.has_looked = false;
-  for_each_index(candidates.size(), threads, [&](std::size_t index, int worker) {
-    Candidate& candidate = candidates[index];
-    GainWorkspace<Cell>& workspace = workspaces[static_cast<std::size_t>(worker)];
-    if (!std::exchange(workspace.has_looked, true)) workspace.overlay.look_at(map);
-    candidate.gain_nats = information_gain(entropy, filter, candidate.path, params, workspace);
+                         CandidateScratch<Cell>& scratch) {
+  using Worker = typename CandidateScratch<Cell>::Worker;
+  scratch.workers.resize(std::max(scratch.workers.size(), static_cast<std::size_t>(worker_count(threads))));
+  for (Worker& worker : scratch.workers) worker.has_looked = false;
+  scratch.order.resize(candidates.size());
+  std::iota(scratch.order.begin(), scratch.order.end(), std::size_t{0});
+  std::sort(scratch.order.begin(), scratch.order.end(), [&](std::size_t a, std::size_t b) {
+    return candidates[a].path.length_m() > candidates[b].path.length_m();
+  });
+  for_each_index(candidates.size(), threads, [&](std::size_t place, int number) {
+    Candidate& candidate = candidates[scratch.order[place]];
+    Worker& worker = scratch.workers[static_cast<std::size_t>(number)];
+    if (!std::exchange(worker.has_looked, true)) worker.workspace.overlay.look_at(map);
+    candidate.gain_nats = information_gain(entropy, filter, candidate.path, params, worker.workspace);
   });
 }
 

@@ -348,7 +348,7 @@ class Explorer {
     while (informative.empty() && next < reachable.size()) {
       const std::size_t end = std::min(reachable.size(), next + static_cast<std::size_t>(params_.candidates_max));
       for (; next < end; ++next) informative.push_back(candidate_for(reachable[next], occupancy));
-      evaluate_candidates(map(), entropy_, filter(), informative, params_.gain, params_.threads, workspaces_);
+      evaluate_candidates(map(), entropy_, filter(), informative, params_.gain, params_.threads, candidate_scratch_);
       std::erase_if(informative, [&](const Candidate& c) { return c.gain_nats < gain_min_nats; });
     }
     return informative;
@@ -373,7 +373,7 @@ class Explorer {
   PathFollower follower_;
   IndexBox<2> reached_;  // the cells that scans have reached, those of the map given at the start included
   std::vector<Index<2>> trail_;  // the cells that the robot's centre has passed, each a face neighbour of the last
-  std::vector<GainWorkspace<Cell>> workspaces_;
+  CandidateScratch<Cell> candidate_scratch_;
   std::optional<Eigen::Vector2d> failed_;
   std::optional<Retreat> retreat_;
   std::optional<Eigen::Vector2d> retreated_on_way_to_;  // the frontier that the last retreat was on the way to

@@ -43,7 +43,6 @@ struct GainParams {
 template <CellPolicy Cell>
 struct GainWorkspace {
   Overlay<Cell> overlay;
-  bool has_looked = false;  ///< used by evaluate_candidates
   BeamPattern<2> beams;
   std::vector<RayObservation> hits;
 
