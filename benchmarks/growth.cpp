@@ -162,7 +162,7 @@ int main(int argc, char** argv) {
     add("area/follow", Part::follow);
     add("area/anew", Part::anew);
   }
-  for (const std::size_t count : {45, 90, 180, 360, 720, 1440}) {
+  for (const std::size_t count : {45U, 90U, 180U, 360U, 720U, 1440U}) {
     benchmark::RegisterBenchmark(std::string("beams/update/").append(std::to_string(count)).c_str(), [=](benchmark::State& state) {
       beams(state, count);
     })->Unit(benchmark::kMicrosecond);
