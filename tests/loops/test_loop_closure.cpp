@@ -197,7 +197,7 @@ TEST_CASE("An explorer whose map is drawn again goes on deciding in it", "[loops
   const std::vector<Pose2> way = way_around(1.2);
   LoopClosingDvlEkf::Params filter = closing(true);
   filter.start.pose = way.front();
-  filter.loops.redraw_shift_m = 1e-6;  // whatever moves
+  filter.loops.solution_shift_m = filter.loops.redraw_shift_m = 1e-6;  // whatever moves
   ExplorerParams params;
   params.threads = 1;
   params.gain.range_max_m = 5.0;
@@ -245,7 +245,7 @@ TEST_CASE("A map that was given is not lost when it is drawn again", "[loops]") 
   const Pose2 far{60.0, 60.0, 0.0};
   given.update(room::scan_of(room::box(far), far, circular_beams(360, 5.0)), far, Eigen::Matrix3d::Zero());
   LoopClosingDvlEkf::Params params = closing(true);
-  params.loops.redraw_shift_m = 1e-6;  // whatever moves
+  params.loops.solution_shift_m = params.loops.redraw_shift_m = 1e-6;  // whatever moves
   const std::vector<Pose2> way = way_around(1.2);
   params.start.pose = way.front();
   Slam<Map<>, LoopClosingDvlEkf> slam(LoopClosingDvlEkf(params), given);
