@@ -5,5 +5,6 @@
 #include "incognita/core/angles.hpp"
 #include "incognita/core/error.hpp"
 #include "incognita/core/fast_log.hpp"
+#include "incognita/core/floor.hpp"
 #include "incognita/core/parallel.hpp"
 #include "incognita/core/random.hpp"

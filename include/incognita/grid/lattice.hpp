@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "incognita/core/error.hpp"
+#include "incognita/core/floor.hpp"
 #include "incognita/geometry/box.hpp"
 
 namespace incognita {
@@ -26,21 +27,11 @@ template <int Dim>
   return a[axis] < b[axis];
 }
 
-namespace detail {
-
-/// std::floor is a call where no option promises SSE 4.1.
-[[nodiscard]] inline int floor_to_int(double value) {
-  const int truncated = static_cast<int>(value);
-  return truncated - static_cast<int>(value < static_cast<double>(truncated));
-}
-
-}  // namespace detail
-
 /// The cell that holds a point given in lattice coordinates, within 2^31 cells of the origin.
 template <int Dim>
 [[nodiscard]] Index<Dim> cell_holding(const Point<Dim>& at) {
   Index<Dim> index;
-  for (int axis = 0; axis < Dim; ++axis) index[axis] = detail::floor_to_int(at[axis]);
+  for (int axis = 0; axis < Dim; ++axis) index[axis] = floor_to_int(at[axis]);
   return index;
 }
 

@@ -31,10 +31,10 @@ class SegmentWalk {
     const double to_along = to[is_steep_];
     const double from_across = from[!is_steep_];
     const double to_across = to[!is_steep_];
-    first_index_ = detail::floor_to_int(from_along);
-    first_row_ = detail::floor_to_int(from_across);
-    const int last_index = detail::floor_to_int(to_along);
-    last_row_ = detail::floor_to_int(to_across);
+    first_index_ = floor_to_int(from_along);
+    first_row_ = floor_to_int(from_across);
+    const int last_index = floor_to_int(to_along);
+    last_row_ = floor_to_int(to_across);
     step_ = last_index < first_index_ ? -1 : 1;
     last_column_ = (last_index - first_index_) * step_;
     phase_ = step_ > 0 ? first_index_ & in_tile : in_tile - (first_index_ & in_tile);
