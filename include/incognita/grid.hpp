@@ -12,6 +12,7 @@
 #include "incognita/grid/floor_plan.hpp"
 #include "incognita/grid/grid.hpp"
 #include "incognita/grid/lattice.hpp"
+#include "incognita/grid/near_distance.hpp"
 #include "incognita/grid/segment_walk.hpp"
 #include "incognita/grid/tile_neighbors.hpp"
 #include "incognita/grid/traversal.hpp"
