@@ -3,6 +3,7 @@
 #pragma once
 
 #include "incognita/geometry/box.hpp"
+#include "incognita/geometry/disc_hull.hpp"
 #include "incognita/geometry/pose.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/principal_axes.hpp"

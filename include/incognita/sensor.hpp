@@ -7,4 +7,5 @@
 #include "incognita/sensor/line_segments.hpp"
 #include "incognita/sensor/obstacle_field.hpp"
 #include "incognita/sensor/ray_cast.hpp"
+#include "incognita/sensor/reliable_visibility.hpp"
 #include "incognita/sensor/scan.hpp"
