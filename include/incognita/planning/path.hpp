@@ -21,7 +21,9 @@ namespace incognita {
                                                             const Index<2>& goal) {
   std::vector<Eigen::Vector2d> path_m;
   for (const Index<2>& cell : field.cells_to(goal)) path_m.push_back(field.lattice().center_m(cell));
-  if (!path_m.empty()) path_m.front() = field.start_m();
+  if (path_m.empty()) return path_m;
+  if (path_m.size() == 1 && !equal(path_m.front(), field.start_m())) path_m.insert(path_m.begin(), field.start_m());
+  path_m.front() = field.start_m();
   return path_m;
 }
 

@@ -15,6 +15,7 @@
 #include "incognita/core/error.hpp"
 #include "incognita/geometry/box.hpp"
 #include "incognita/geometry/vector.hpp"
+#include "incognita/grid/components.hpp"
 #include "incognita/map/occupancy.hpp"
 
 namespace incognita {
@@ -47,7 +48,7 @@ struct TravelParams {
   }
 };
 
-/// The cheapest ways from one place to all others: 8-connected, never cutting a corner, through free cells
+/// The cheapest ways from one place to all others: 8-connected (or 4-, see restart), never cutting a corner, through free cells
 /// with the clearance that the robot needs. When the start itself lacks it (the belief put a wall too near),
 /// cells around it that are not occupied may be crossed, at a high cost, until the first proper one is
 /// reached. One field serves all goals. Safe to read from many threads at once.
@@ -91,8 +92,42 @@ class TravelCostField {
     start_ = occupancy.lattice().index_of(start_m);
     rate_cells(occupancy, clearance_m, params);
     if (!is_proper(start_)) open_escape(occupancy, params);
-    search(params);
+    search(Adjacency::corners, 1.0, params.escape_cost_per_m);
     for (const Index<2>& index : escape_) cost_m_.set(index, infinite);
+  }
+
+  /// Makes this the field of a cost per metre of any kind (Isleyen et al., (14) with the edges of footnote 2): infinity where
+  /// the robot must not be, > 0 elsewhere. From a start where it must not be, nothing is reached. Throws std::invalid_argument
+  /// for a start that is not finite and for a cost that is not > 0 (NaN is not); the field is then as it was. O(cells) to set up and
+  /// O(reached cells) to search while the largest cost is some thousand times the smallest at most.
+  void restart(const Grid<float, 2>& cost_per_m, const Eigen::Vector2d& start_m, Adjacency adjacency = Adjacency::corners) {
+    if (!std::isfinite(start_m[0]) || !std::isfinite(start_m[1])) {
+      throw std::invalid_argument("TravelCostField: start_m is not finite");
+    }
+    float least = infinite;
+    float most = 0.0F;
+    for (const float cost : cost_per_m.values()) {
+      require(cost > 0.0F, "TravelCostField", "cost_per_m", static_cast<double>(cost), "> 0");
+      least = std::min(least, cost);
+      most = std::max(most, cost < infinite ? cost : 0.0F);
+    }
+    const IndexBox<2>& box = cost_per_m.box();
+    start_m_ = start_m;
+    proper_max_ = most;
+    escape_.clear();
+    for (Grid<float, 2>* costs : {&cost_per_m_, &cost_m_}) costs->clear_to(box.padded(1));
+    step_to_.clear_to(box.padded(1));
+    const Eigen::Vector2d start_cells = cost_per_m.lattice().to_cells(start_m);
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!(box.lower[axis] <= start_cells[axis] && start_cells[axis] < box.upper[axis])) return;
+    }
+    start_ = cost_per_m.lattice().index_of(start_m);
+    const Offset width = cost_per_m.stride(1);
+    for (Offset row = 0; row < static_cast<Offset>(cost_per_m.size()); row += width) {
+      std::copy_n(cost_per_m.values().begin() + row, width,
+                  cost_per_m_.values().begin() + cost_per_m_.offset_of(cost_per_m.index_at(row)));
+    }
+    if (is_proper(start_)) search(adjacency, static_cast<double>(least), static_cast<double>(most));
   }
 
   /// What the way to a cell costs, in metres; infinity when there is none or the robot cannot stay there.
@@ -105,7 +140,7 @@ class TravelCostField {
     return cost_per_m_.value(index) <= proper_max_;
   }
 
-  /// The cost of a metre in a cell, 1 or more; infinity where the robot cannot travel.
+  /// The cost of a metre in a cell, > 0; infinity where the robot cannot travel.
   [[nodiscard]] float cost_per_m(const Index<2>& index) const { return cost_per_m_.value(index); }
 
   /// The cells of the cheapest way, from the start's to `goal`; empty when there is none.
@@ -169,13 +204,16 @@ class TravelCostField {
     for (const Index<2>& index : escape_) cost_per_m_.set(index, escape);
   }
 
-  void search(const TravelParams& params) {
+  /// A bucket queue. Where the costs differ so much that buckets as narrow as the cheapest step would be too many, a cell may be
+  /// found cheaper again after its neighbours were reached from it, and is then taken again.
+  void search(Adjacency adjacency, double cost_min_per_m, double cost_max_per_m) {
     const float half_m = static_cast<float>(0.5 * cost_m_.resolution_m());
     const float half_diagonal_m = static_cast<float>(0.5 * std::numbers::sqrt2 * cost_m_.resolution_m());
+    constexpr double buckets_max = 4096.0;
+    const double step_max_m = std::numbers::sqrt2 * cost_m_.resolution_m() * cost_max_per_m;
     // A little under the cheapest step, so that rounding never puts a step's end into the bucket of its
     // beginning.
-    const float width_m = static_cast<float>(0.99 * cost_m_.resolution_m());
-    const double step_max_m = std::numbers::sqrt2 * cost_m_.resolution_m() * params.escape_cost_per_m;
+    const float width_m = static_cast<float>(std::max(0.99 * cost_m_.resolution_m() * cost_min_per_m, step_max_m / buckets_max));
     std::vector<std::vector<Offset>> buckets(
         static_cast<std::size_t>(step_max_m / static_cast<double>(width_m)) + 3);
 
@@ -187,7 +225,8 @@ class TravelCostField {
     buckets[0].push_back(cost_m_.offset_of(start_));
     for (std::size_t b = 0; waiting > 0; b = (b + 1) % buckets.size()) {
       std::vector<Offset>& bucket = buckets[b];
-      for (const Offset from : bucket) {
+      for (std::size_t next = 0; next < bucket.size(); ++next) {
+        const Offset from = bucket[next];
         --waiting;
         if ((step_to_[from] & settled) != 0) continue;
         step_to_[from] |= settled;
@@ -210,6 +249,7 @@ class TravelCostField {
           open[face] = cost_per_m_[to] <= enter_max;
           if (open[face]) relax(2 * face, to, half_m);
         }
+        if (adjacency == Adjacency::faces) continue;
         for (std::size_t face = 0; face < 4; ++face) {
           const Offset to = from + offset_steps[2 * face + 1];
           if (open[face] && open[(face + 1) % 4] && cost_per_m_[to] <= enter_max) {
