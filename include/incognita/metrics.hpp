@@ -8,6 +8,7 @@
 /// - metrics/truth.hpp: the cells of a belief that are truly occupied
 /// - metrics/visible_floor.hpp: the floor that can be seen from where a disc can go
 /// - metrics/coverage.hpp: the share of that floor which a belief knows
+/// - metrics/mapped_fraction.hpp: the share of a workspace's cells which a belief knows
 ///
 /// Estimates and truth are compared in one frame: a simulated robot starts at the identity of its own frame,
 /// so T_belief_world is the inverse of the true start pose. Accumulators are plain values; sums run in the
@@ -17,6 +18,7 @@
 #include "incognita/metrics/belief_box.hpp"
 #include "incognita/metrics/coverage.hpp"
 #include "incognita/metrics/map_error.hpp"
+#include "incognita/metrics/mapped_fraction.hpp"
 #include "incognita/metrics/nees.hpp"
 #include "incognita/metrics/relations_error.hpp"
 #include "incognita/metrics/stamps.hpp"

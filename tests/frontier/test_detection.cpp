@@ -24,7 +24,7 @@ OccupancyGrid<Dim> random_belief(Random& random, const Index<Dim>& extent, doubl
 
 /// The definition, cell by cell, over pairs of indices.
 template <int Dim>
-std::vector<Index<Dim>> frontier_by_definition(const OccupancyGrid<Dim>& belief, bool ignore_near_walls) {
+std::vector<Index<Dim>> frontier_by_definition(const OccupancyGrid<Dim>& belief, bool ignore_near_walls, bool across_corners) {
   const auto near_occupied = [&](const Index<Dim>& center) {
     for (Offset o = 0; o < static_cast<Offset>(belief.size()); ++o) {
       if (belief[o] == Occupancy::occupied && (belief.index_at(o) - center).cwiseAbs().maxCoeff() == 1)
@@ -36,12 +36,14 @@ std::vector<Index<Dim>> frontier_by_definition(const OccupancyGrid<Dim>& belief,
   for (Offset o = 0; o < static_cast<Offset>(belief.size()); ++o) {
     if (belief[o] != Occupancy::free) continue;
     bool found = false;
-    for (int axis = 0; axis < Dim; ++axis) {
-      for (const int side : {-1, 1}) {
-        const Index<Dim> neighbor = belief.index_at(o) + side * Index<Dim>::Unit(axis);
-        found = found || (belief.value(neighbor) == Occupancy::unknown &&
-                          !(ignore_near_walls && near_occupied(neighbor)));
-      }
+    for (int code = 0; code < (Dim == 2 ? 9 : 27); ++code) {
+      Index<Dim> step;
+      for (int axis = 0, rest = code; axis < Dim; ++axis, rest /= 3) step[axis] = rest % 3 - 1;
+      const int length = step.cwiseAbs().sum();
+      if (length == 0 || (length > 1 && !across_corners)) continue;
+      const Index<Dim> neighbor = belief.index_at(o) + step;
+      found = found || (belief.value(neighbor) == Occupancy::unknown &&
+                        !(ignore_near_walls && near_occupied(neighbor)));
     }
     if (found) frontier.push_back(belief.index_at(o));
   }
@@ -56,11 +58,14 @@ void check_against_definition(const Index<Dim>& extent, int trials) {
     const auto belief =
         random_belief<Dim>(random, extent, random.uniform(0.0, 0.6), random.uniform(0.0, 0.1));
     for (const bool ignore : {true, false}) {
-      FrontierParams params;
-      params.ignore_unknown_near_walls = ignore;
-      const auto frontier = detect_frontier<Dim>(belief, params);
-      REQUIRE(frontier == frontier_by_definition<Dim>(belief, ignore));
-      found += frontier.size();
+      for (const bool across_corners : {false, true}) {
+        FrontierParams params;
+        params.ignore_unknown_near_walls = ignore;
+        params.unknown_adjacency = across_corners ? Adjacency::corners : Adjacency::faces;
+        const auto frontier = detect_frontier<Dim>(belief, params);
+        REQUIRE(frontier == frontier_by_definition<Dim>(belief, ignore, across_corners));
+        found += frontier.size();
+      }
     }
   }
   REQUIRE(found > 100);

@@ -32,14 +32,16 @@ std::vector<Index<Dim>> random_cells(Random& random, const Index<Dim>& extent, d
 }
 
 template <int Dim>
-void check_groups(const Index<Dim>& extent, double share) {
+void check_groups(const Index<Dim>& extent, double share, Adjacency adjacency = Adjacency::corners) {
   Random random(Dim);
+  FrontierParams params = params_of(0.3, 1000.0);
+  params.group_adjacency = adjacency;
   for (int trial = 0; trial < 10; ++trial) {
     Grid<std::uint8_t, Dim> marks{Lattice<Dim>(0.1)};
     const auto cells = random_cells<Dim>(random, extent, share, marks);
     const auto components =
-        connected_components(marks, Adjacency::corners, [](std::uint8_t m) { return m != 0; });
-    const auto frontiers = cluster_frontier<Dim>(marks.lattice(), cells, params_of(0.3, 1000.0));
+        connected_components(marks, adjacency, [](std::uint8_t m) { return m != 0; });
+    const auto frontiers = cluster_frontier<Dim>(marks.lattice(), cells, params);
     std::size_t group = 0;
     for (std::size_t label = 0; label < components.sizes.size(); ++label) {
       if (components.sizes[label] < 3) continue;
@@ -70,6 +72,8 @@ void check_groups(const Index<Dim>& extent, double share) {
 TEST_CASE("Groups are the connected components that are long enough", "[frontier]") {
   check_groups<2>(Index<2>(20, 15), 0.25);
   check_groups<3>(Index<3>(4, 3, 5), 0.06);
+  check_groups<2>(Index<2>(20, 15), 0.5, Adjacency::faces);
+  check_groups<3>(Index<3>(4, 3, 5), 0.2, Adjacency::faces);
 }
 
 TEST_CASE("A long straight frontier is split evenly along itself", "[frontier]") {

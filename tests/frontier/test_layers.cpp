@@ -120,6 +120,12 @@ TEST_CASE("What follows a map of log-odds, with any unknown cell a frontier", "[
   follow_scans(LogOdds(), any, 200, 12.0);
 }
 
+TEST_CASE("What follows a map where an unknown cell across a corner makes a frontier", "[frontier]") {
+  FrontierParams corners;
+  corners.unknown_adjacency = Adjacency::corners;
+  follow_scans(TBayes(), corners, 100, 8.0);
+}
+
 TEST_CASE("What follows an empty map is empty", "[frontier]") {
   const Map<> map;
   Followers<TBayes> followers(map.lattice(), {});

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "incognita/core/error.hpp"
+#include "incognita/grid/components.hpp"
 #include "incognita/map/occupancy.hpp"
 
 namespace incognita {
@@ -14,6 +15,8 @@ struct FrontierParams {
   /// are weak, so thin slivers of unknown stay between what is free and its wall: there is nothing to see
   /// there.
   bool ignore_unknown_near_walls = true;
+  Adjacency unknown_adjacency = Adjacency::faces;   ///< which cells beside a free one make it a frontier when unknown
+  Adjacency group_adjacency = Adjacency::corners;   ///< which frontier cells belong together
   double length_min_m = 0.3;  ///< a group with fewer cells than fill this length in a row is dropped, >= 0
   double length_max_m = 3.0;  ///< a group longer than this is split along its principal axis, > 0
 
@@ -50,9 +53,8 @@ template <int Dim>
 
 }  // namespace detail
 
-/// The free cells with an unknown face neighbour (see FrontierParams), in storage order. Cells outside of the
-/// grid's box are unknown. Throws std::invalid_argument for bad parameters. O(cells); nothing but the result
-/// is allocated.
+/// The free cells with an unknown neighbour (see FrontierParams), in storage order. Cells outside of the grid's box are unknown.
+/// Throws std::invalid_argument for bad parameters. O(cells); little but the result is allocated.
 template <int Dim>
 [[nodiscard]] std::vector<Index<Dim>> detect_frontier(const OccupancyGrid<Dim>& occupancy,
                                                       const FrontierParams& params = {}) {
@@ -64,15 +66,19 @@ template <int Dim>
   const auto opens = [&](const Index<Dim>& unknown) {
     return !params.ignore_unknown_near_walls || !detail::is_near_occupied<Dim>(occupancy, unknown);
   };
+  const std::vector<Index<Dim>> steps = neighbor_steps<Dim>(params.unknown_adjacency);
+  std::vector<Offset> offset_steps;
+  for (const Index<Dim>& step : steps) {
+    Offset offset = 0;
+    for (int axis = 0; axis < Dim; ++axis) offset += step[axis] * occupancy.stride(axis);
+    offset_steps.push_back(offset);
+  }
   const auto is_frontier = [&](const Index<Dim>& index) {
-    for (int axis = 0; axis < Dim; ++axis) {
-      for (const int side : {-1, 1}) {
-        Index<Dim> neighbor = index;
-        neighbor[axis] += side;
-        const bool unknown =
-            !box.contains(neighbor) || occupancy[occupancy.offset_of(neighbor)] == Occupancy::unknown;
-        if (unknown && opens(neighbor)) return true;
-      }
+    for (const Index<Dim>& step : steps) {
+      const Index<Dim> neighbor = index + step;
+      const bool unknown =
+          !box.contains(neighbor) || occupancy[occupancy.offset_of(neighbor)] == Occupancy::unknown;
+      if (unknown && opens(neighbor)) return true;
     }
     return false;
   };
@@ -92,10 +98,7 @@ template <int Dim>
       if (row[i] != Occupancy::free) continue;
       if (inner && i > 0 && i + 1 < count) {
         bool any_unknown = false;
-        for (int axis = 0; axis < Dim; ++axis) {
-          const Offset stride = occupancy.stride(axis);
-          any_unknown |= (row[i - stride] == Occupancy::unknown) | (row[i + stride] == Occupancy::unknown);
-        }
+        for (const Offset step : offset_steps) any_unknown |= row[i + step] == Occupancy::unknown;
         if (!any_unknown) continue;
       }
       index[0] = box.lower[0] + i;

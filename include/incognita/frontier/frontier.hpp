@@ -76,11 +76,11 @@ template <int Dim>
   return slabs;
 }
 
-/// The groups of cells that touch, corners included. `cells` in storage order and each once; each group keeps their order, and
+/// The groups of cells that touch. `cells` in storage order and each once; each group keeps their order, and
 /// so do the first cells of the groups. O(n), whatever lies between the cells: for each way to a neighbour, the cells and their
 /// neighbours are in the same order, so one pass over both finds those that are cells too.
 template <int Dim>
-[[nodiscard]] std::vector<std::vector<Index<Dim>>> touching_groups(const std::vector<Index<Dim>>& cells) {
+[[nodiscard]] std::vector<std::vector<Index<Dim>>> touching_groups(const std::vector<Index<Dim>>& cells, Adjacency adjacency) {
   // Each cell points to an earlier one of its group, the first to itself.
   std::vector<std::size_t> earlier(cells.size());
   std::iota(earlier.begin(), earlier.end(), std::size_t{0});
@@ -88,7 +88,7 @@ template <int Dim>
     while (earlier[cell] != cell) cell = earlier[cell] = earlier[earlier[cell]];
     return cell;
   };
-  for (const Index<Dim>& step : neighbor_steps<Dim>(Adjacency::corners)) {
+  for (const Index<Dim>& step : neighbor_steps<Dim>(adjacency)) {
     if (!is_stored_before<Dim>(Index<Dim>::Zero(), step)) continue;  // the way back
     std::size_t other = 0;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
@@ -115,7 +115,7 @@ template <int Dim>
 
 /// Appends `group`, cut into touching parts of which none is longer than length_max_cells, to `frontiers`.
 template <int Dim>
-void split_group(const Lattice<Dim>& lattice, std::vector<Index<Dim>> group, double length_max_cells,
+void split_group(const Lattice<Dim>& lattice, std::vector<Index<Dim>> group, double length_max_cells, Adjacency adjacency,
                  std::vector<Frontier<Dim>>& frontiers) {
   const auto slabs = slabs_along_principal_axis<Dim>(group, length_max_cells);
   if (slabs.size() == 1) {
@@ -124,13 +124,15 @@ void split_group(const Lattice<Dim>& lattice, std::vector<Index<Dim>> group, dou
   }
   // A bent group falls into pieces, which may be long in another direction.
   for (const auto& slab : slabs) {
-    for (auto& piece : touching_groups<Dim>(slab)) split_group<Dim>(lattice, std::move(piece), length_max_cells, frontiers);
+    for (auto& piece : touching_groups<Dim>(slab, adjacency)) {
+      split_group<Dim>(lattice, std::move(piece), length_max_cells, adjacency, frontiers);
+    }
   }
 }
 
 }  // namespace detail
 
-/// Groups frontier cells that touch, corners included; drops small groups, and splits long ones along their
+/// Groups frontier cells that touch; drops small groups, and splits long ones along their
 /// principal axis into parts that touch in themselves (see FrontierParams). `cells` in storage order and each
 /// once, as detect_frontier returns them. The groups follow the storage order of their first cells, the parts
 /// of a split one its principal axis. Throws std::invalid_argument for bad parameters. O(cells).
@@ -143,9 +145,9 @@ template <int Dim>
   if (cells.empty()) return frontiers;
   const double length_min_cells = params.length_min_m / lattice.resolution_m() - 1e-9;
   const double length_max_cells = std::max(1.0, params.length_max_m / lattice.resolution_m());
-  for (auto& group : detail::touching_groups<Dim>(cells)) {
+  for (auto& group : detail::touching_groups<Dim>(cells, params.group_adjacency)) {
     if (static_cast<double>(group.size()) < length_min_cells) continue;
-    detail::split_group<Dim>(lattice, std::move(group), length_max_cells, frontiers);
+    detail::split_group<Dim>(lattice, std::move(group), length_max_cells, params.group_adjacency, frontiers);
   }
   return frontiers;
 }

@@ -44,6 +44,8 @@ class FrontierLayer {
     for_each_tile_of(occupancy.grid().box(), [&](const Index<Dim>& tile) { find_in(occupancy, tile); });
   }
 
+  [[nodiscard]] bool contains(const Index<Dim>& cell) const { return frontier_.get(cell); }
+
   /// The cells of the frontier in storage order, as detect_frontier has them. O(n log n) for n of them.
   [[nodiscard]] std::vector<Index<Dim>> cells() const {
     std::vector<Index<Dim>> cells;
@@ -69,11 +71,12 @@ class FrontierLayer {
     frontier = 0;
     if (free == 0) return;
     const auto is_occupied = [&](const Index<Dim>& at) { return occupancy.occupied().tiles().value(at); };
-    frontier = free & TileNeighbors(tile, [&](const Index<Dim>& at) {
-                        const CellBits::Word unknown = ~(occupancy.free().tiles().value(at) | is_occupied(at));
-                        if (unknown == 0 || !params_.ignore_unknown_near_walls) return unknown;
-                        return unknown & ~TileNeighbors(at, is_occupied).dilated();
-                      }).beside();
+    const TileNeighbors open(tile, [&](const Index<Dim>& at) {
+      const CellBits::Word unknown = ~(occupancy.free().tiles().value(at) | is_occupied(at));
+      if (unknown == 0 || !params_.ignore_unknown_near_walls) return unknown;
+      return unknown & ~TileNeighbors(at, is_occupied).dilated();
+    });
+    frontier = free & (params_.unknown_adjacency == Adjacency::faces ? open.beside() : open.dilated());
     if (frontier == 0 || listed_.get(tile)) return;
     listed_.set(tile, true);
     tiles_.push_back(tile);

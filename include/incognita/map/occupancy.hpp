@@ -1,7 +1,9 @@
 /// What a belief says of a cell in one word; what frontiers and planning read.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "incognita/core/error.hpp"
 #include "incognita/grid/grid.hpp"
@@ -18,6 +20,16 @@ using OccupancyGrid = Grid<Occupancy, Dim>;
 struct OccupancyThresholds {
   float free_below = -1.0F;     ///< log-odds under which a cell is free, < 0
   float occupied_above = 1.0F;  ///< log-odds over which a cell is occupied, > 0
+
+  /// (1) of Isleyen, van de Molengraft and Arslan: free up to a probability, occupied from another on. Throws std::invalid_argument
+  /// unless 0 <= free_max < 0.5 < occupied_min <= 1: what nothing was measured of must be unknown.
+  [[nodiscard]] static OccupancyThresholds of_probabilities(double free_max, double occupied_min) {
+    require(free_max >= 0.0 && free_max < 0.5, "OccupancyThresholds", "free_max", free_max, "in [0, 0.5)");
+    require(occupied_min > 0.5 && occupied_min <= 1.0, "OccupancyThresholds", "occupied_min", occupied_min, "in (0.5, 1]");
+    const auto log_odds = [](double p) { return static_cast<float>(std::log(p / (1.0 - p))); };
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {std::nextafter(log_odds(free_max), infinity), std::nextafter(log_odds(occupied_min), -infinity)};
+  }
 
   [[nodiscard]] Occupancy classify(float log_odds) const {
     if (log_odds < free_below) return Occupancy::free;
