@@ -98,6 +98,23 @@ Filter make_filter(const Options& options) {
   return Filter(params);
 }
 
+incognita::Strategy strategy_of(const std::string& name) {
+  using incognita::Strategy;
+  return name == "persistent" ? Strategy::persistent : name == "online" ? Strategy::online : Strategy::last_mile;
+}
+
+incognita::FrontierInformation information_of(const std::string& name) {
+  using incognita::FrontierInformation;
+  if (name == "uniform") return FrontierInformation::uniform;
+  if (name == "size") return FrontierInformation::size;
+  return name == "entropy" ? FrontierInformation::entropy : FrontierInformation::big;
+}
+
+incognita::NavigationCost navigation_of(const std::string& name) {
+  using incognita::NavigationCost;
+  return name == "uniform" ? NavigationCost::uniform : name == "euclidean" ? NavigationCost::euclidean : NavigationCost::geodesic;
+}
+
 template <class Cell, class Filter>
 void explore(const Options& options, incognita::Simulator& simulator, const incognita::RobotParams& robot,
              double range_max_m, examples::OutputFolder& output) {
@@ -106,7 +123,9 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   params.travel.robot_radius_m = robot.radius_m;
   params.guard.robot_radius_m = robot.radius_m;
   params.gain.range_max_m = range_max_m;
-  params.ranking = options.ranking == "gain" ? Ranking::gain : Ranking::gain_per_metre;
+  params.strategy = strategy_of(options.strategy);
+  params.information = information_of(options.information);
+  params.navigation = navigation_of(options.navigation);
   params.threads = options.threads;
   MapParams map_params;
   map_params.resolution_m = options.resolution_m;

@@ -1,6 +1,7 @@
 /// One exploration in simulation, recorded step by step.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -66,6 +67,13 @@ struct MissionRecord {
   double explored_fraction = 0.0;
   double floor_area_m2 = 0.0;
   double wall_time_s = 0.0;
+
+  /// The progress, to the second, when so much was explored; null when it never was.
+  [[nodiscard]] const ProgressRecord* first_with_explored(double fraction) const {
+    const auto found = std::find_if(progress.begin(), progress.end(),
+                                    [=](const ProgressRecord& p) { return p.explored_fraction >= fraction; });
+    return found == progress.end() ? nullptr : &*found;
+  }
 };
 
 /// Drives `explorer` in `simulator` until it stops or duration_s is over. `report` is called once a simulated second.

@@ -23,7 +23,9 @@ struct Options {
   std::string filter = "dvl-ekf";
   std::string compass = "on";
   std::string loops = "on";
-  std::string ranking = "gain-per-metre";
+  std::string strategy = "last-mile";
+  std::string information = "big";
+  std::string navigation = "geodesic";
   double duration_s = 1800.0;
   std::uint64_t seed = 1;
   std::optional<Eigen::Vector2d> start_m;  ///< in the map file's frame
@@ -66,8 +68,16 @@ struct Options {
   app.add_option("--loops", options.loops, "whether the map is put right when the robot returns to where it was")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
-  app.add_option("--ranking", options.ranking, "candidates by information gain alone (as the paper) or by metre of path")
-      ->check(CLI::IsMember({"gain", "gain-per-metre"}))
+  app.add_option("--strategy", options.strategy,
+                 "plan anew at a viewpoint, as soon as it is no longer informative, or every second if the map has changed")
+      ->check(CLI::IsMember({"persistent", "last-mile", "online"}))
+      ->capture_default_str();
+  app.add_option("--information", options.information, "what a frontier is worth: 1, its size, its entropy, or the information gain "
+                                                       "of the path to it")
+      ->check(CLI::IsMember({"uniform", "size", "entropy", "big"}))
+      ->capture_default_str();
+  app.add_option("--navigation", options.navigation, "what that is divided by: nothing, the straight line, or the cost of the way")
+      ->check(CLI::IsMember({"uniform", "euclidean", "geodesic"}))
       ->capture_default_str();
   app.add_option("--duration", options.duration_s, "longest mission, in simulated seconds, > 0")
       ->type_name("S")

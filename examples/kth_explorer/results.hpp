@@ -72,7 +72,9 @@ class CsvText {
   json["filter"] = options.filter;
   json["compass"] = options.compass;
   json["loops"] = options.loops;
-  json["ranking"] = options.ranking;
+  json["strategy"] = options.strategy;
+  json["information"] = options.information;
+  json["navigation"] = options.navigation;
   json["resolution_m"] = options.resolution_m;
   json["duration_s"] = record.duration_s;
   json["scans"] = record.scans;
@@ -87,6 +89,9 @@ class CsvText {
   json["map_error"] = record.map_error;
   json["map_uncertainty_bits_per_step"] = record.map_uncertainty_bits_per_step;
   json["explored_fraction"] = record.explored_fraction;
+  const ProgressRecord* const most = record.first_with_explored(0.9);
+  json["time_to_90_percent_s"] = most == nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(most->time_s);
+  json["distance_to_90_percent_m"] = most == nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(most->distance_m);
   json["explored_area_m2"] = record.explored_fraction * record.floor_area_m2;
   json["wall_time_s"] = record.wall_time_s;
   json["real_time_factor"] = record.duration_s / record.wall_time_s;

@@ -31,6 +31,9 @@ refused "a YAML without resolution" resolution --map ../inputs/no_resolution.yam
 refused "an XML with a space of two points" two_points.xml --map ../inputs/two_points.xml
 refused "a map that is not there" absent.yaml --map ../inputs/absent.yaml
 refused "a negative alpha" alpha --alpha -1
+refused "a strategy that is not there" strategy --strategy sideways
+refused "an information that is not there" information --information gossip
+refused "a navigation that is not there" navigation --navigation stars
 refused "an alpha that is no number" alpha --alpha nan
 refused "a start inside a wall" start --start 0.1,0.1
 refused "a start that is no point" --start --start 3

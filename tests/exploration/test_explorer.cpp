@@ -76,14 +76,55 @@ TEST_CASE("two rooms are explored through their door, without a collision") {
   CHECK(command.turn_rate_rad_per_s == 0.0);
 }
 
-TEST_CASE("what lies behind a door too narrow for the robot is not reachable") {
-  Simulator simulator = test::office_simulator(0.3, 3);
+TEST_CASE("every strategy, measure of information and cost of navigation explores two rooms") {
+  struct Choice {
+    Strategy strategy;
+    FrontierInformation information;
+    NavigationCost navigation;
+  };
+  const Choice choice = GENERATE(Choice{Strategy::persistent, FrontierInformation::big, NavigationCost::geodesic},
+                                 Choice{Strategy::online, FrontierInformation::big, NavigationCost::geodesic},
+                                 Choice{Strategy::last_mile, FrontierInformation::uniform, NavigationCost::geodesic},
+                                 Choice{Strategy::last_mile, FrontierInformation::size, NavigationCost::euclidean},
+                                 Choice{Strategy::persistent, FrontierInformation::entropy, NavigationCost::uniform},
+                                 Choice{Strategy::online, FrontierInformation::size, NavigationCost::euclidean});
+  Simulator simulator = test::office_simulator(0.9, 5);
   ExplorerParams params = quick_params();
-  params.viewpoint_radius_m = 0.3;
+  params.strategy = choice.strategy;
+  params.information = choice.information;
+  params.navigation = choice.navigation;
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 200.0);
   REQUIRE(explorer.stopped());
-  CHECK(to_string(*explorer.stopped()) == "nothing_reachable");
+  CAPTURE(static_cast<int>(choice.strategy), static_cast<int>(choice.information), to_string(*explorer.stopped()));
+  CHECK(*explorer.stopped() != StopReason::lost);
+  CHECK(explored_fraction(explorer, simulator) > 0.95);
+  CHECK(simulator.collisions() == 0);
+}
+
+TEST_CASE("candidates are ranked by what they tell for what they cost") {
+  Simulator simulator = test::office_simulator(0.9, 6);
+  ExplorerParams params = quick_params();
+  params.information = FrontierInformation::size;
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 4.0);
+  const std::vector<Candidate>& candidates = explorer.decision().candidates;
+  REQUIRE_FALSE(candidates.empty());
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& candidate = candidates[i];
+    CHECK(candidate.information == Approx(0.01 * static_cast<double>(candidate.frontier.size())));
+    CHECK(candidate.utility == Approx(candidate.information / (candidate.navigation_cost + params.travel_offset_m)));
+    CHECK((candidate.goal_m() - explorer.map().lattice().center_m(candidate.viewpoint)).norm() < 1e-9);
+    if (i > 0) CHECK(candidate.utility <= candidates[i - 1].utility);
+  }
+}
+
+TEST_CASE("what lies behind a door too narrow for the robot is looked at through it, and not gone to") {
+  Simulator simulator = test::office_simulator(0.3, 3);
+  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 200.0);
+  REQUIRE(explorer.stopped());
+  CHECK(to_string(*explorer.stopped()) == "nothing_informative");
   CHECK(simulator.collisions() == 0);
   CHECK((test::left_start() * explorer.belief().pose).x_m < 4.0);
 }
@@ -216,7 +257,9 @@ TEST_CASE("while the map stays the same no goal is taken up twice") {
 TEST_CASE("behavioral entropy with alpha 1 decides as Shannon's") {
   const auto run = [](const Measure& measure) {
     Simulator simulator = test::office_simulator(0.9, 7);
-    OfficeExplorer explorer(quick_params(), Map<TBayes>{}, measure);
+    ExplorerParams params = quick_params();
+    params.strategy = Strategy::online;  // decides often
+    OfficeExplorer explorer(params, Map<TBayes>{}, measure);
     return test::run_mission(explorer, simulator, 15.0);
   };
   const test::Mission behavioral = run(Behavioral{1.0});
@@ -235,6 +278,7 @@ TEST_CASE("the trajectory is the same to the bit for any number of threads") {
     Simulator simulator = test::office_simulator(0.9, 8);
     ExplorerParams params = quick_params();
     params.threads = threads;
+    params.strategy = Strategy::online;  // decides often
     OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{0.5});
     return test::run_mission(explorer, simulator, 15.0);
   };
@@ -260,13 +304,13 @@ TEST_CASE("explorer parameters out of bounds are refused by name and value") {
   const char* const own = "ExplorerParams";
   refused([](auto& p) { p.travel_offset_m = -0.25; }, own, "travel_offset_m", "-0.25");
   refused([](auto& p) { p.candidates_max = 0; }, own, "candidates_max", "0");
-  refused([](auto& p) { p.viewpoint_radius_m = -3.0; }, own, "viewpoint_radius_m", "-3");
+  refused([](auto& p) { p.visibility_tolerance_m = -3.0; }, own, "visibility_tolerance_m", "-3");
+  refused([](auto& p) { p.information_min_m2 = -0.75; }, own, "information_min_m2", "-0.75");
+  refused([](auto& p) { p.gain.range_max_m = 0.2; }, own, "gain.range_max_m", "0.15");
   refused([](auto& p) { p.gain_min_cells = -0.5; }, own, "gain_min_cells", "-0.5");
   refused([](auto& p) { p.decision_interval_s = -1.5; }, own, "decision_interval_s", "-1.5");
   refused([](auto& p) { p.blocked_max_s = 0.0; }, own, "blocked_max_s", "0");
   refused([](auto& p) { p.retreat.distance_m = -2.5; }, "RetreatParams", "distance_m", "-2.5");
-  refused([](auto& p) { p.sought_known_share = 1.5; }, own, "sought_known_share", "1.5");
-  refused([](auto& p) { p.sought_known_share = 0.0; }, own, "sought_known_share", "0");
   refused([&](auto& p) { p.position_sigma_max_m = nan; }, own, "position_sigma_max_m", "nan");
   refused([&](auto& p) { p.duration_max_s = nan; }, own, "duration_max_s", "nan");
   refused([](auto& p) { p.threads = -2; }, own, "threads", "-2");

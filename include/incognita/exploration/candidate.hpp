@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,80 +11,23 @@
 
 #include "incognita/core/parallel.hpp"
 #include "incognita/exploration/information_gain.hpp"
-#include "incognita/frontier/frontier.hpp"
-#include "incognita/grid/traversal.hpp"
-#include "incognita/map/occupancy.hpp"
-#include "incognita/planning/path.hpp"
-#include "incognita/planning/travel_cost.hpp"
+#include "incognita/planning/polyline.hpp"
 
 namespace incognita {
 
-/// A path from the robot to a place from which a frontier is seen.
+/// A way to go and see a frontier.
 struct Candidate {
-  Eigen::Vector2d frontier_m{0.0, 0.0};  ///< a cell of the frontier, near its middle
-  std::vector<Index<2>> sought;                          ///< the unknown cells beside the frontier
-  Polyline path;                                         ///< from the robot to the goal
-  double gain_nats = 0.0;  ///< what the path is predicted to tell; BIG with a behavioral entropy
-  double utility = 0.0;    ///< what candidates are ranked by
+  Eigen::Vector2d frontier_m{0.0, 0.0};     ///< a cell of the frontier, near its middle
+  std::vector<Index<2>> frontier;           ///< its cells
+  Index<2> viewpoint = Index<2>::Zero();    ///< from where it is seen
+  Polyline path;                            ///< from the robot to there
+  double gain_nats = 0.0;        ///< what the path is predicted to tell, BIG with a behavioral entropy; 0 where it was not asked
+  double information = 0.0;      ///< what the frontier is measured by, see FrontierInformation
+  double navigation_cost = 0.0;  ///< of getting there, see NavigationCost
+  double utility = 0.0;          ///< what candidates are ranked by: information per cost
 
   [[nodiscard]] const Eigen::Vector2d& goal_m() const { return path.points_m().back(); }
 };
-
-/// The reachable cell nearest to `target` within radius_m from which the straight line to the target meets no occupied
-/// cell; among equals the one cheapest to reach. None when there is no such cell.
-[[nodiscard]] inline std::optional<Index<2>> find_viewpoint(const OccupancyGrid<2>& occupancy,
-                                                            const TravelCostField& field, const Index<2>& target,
-                                                            double radius_m) {
-  const Lattice<2>& lattice = occupancy.lattice();
-  const double radius_cells = radius_m / lattice.resolution_m();
-  constexpr double rounding = 1e-9;  // 0.3 m of 0.1 m cells are 3
-  const int reach = static_cast<int>(radius_cells + rounding);
-  const auto sees_target = [&](const Index<2>& from) {
-    bool clear = true;
-    traverse<2>(lattice, lattice.center_m(from), lattice.center_m(target), [&](const Index<2>& index) {
-      clear = occupancy.value(index) != Occupancy::occupied;
-      return clear;
-    });
-    return clear;
-  };
-  std::optional<Index<2>> best;
-  int best_distance2 = static_cast<int>(radius_cells * radius_cells + rounding);
-  float best_cost_m = std::numeric_limits<float>::infinity();
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const int distance2 = dx * dx + dy * dy;
-      if (distance2 > best_distance2) continue;
-      const Index<2> index(target[0] + dx, target[1] + dy);
-      if (!field.reaches(index)) continue;
-      const float cost_m = field.cost_m(index);
-      if (distance2 == best_distance2 && cost_m >= best_cost_m) continue;
-      if (!sees_target(index)) continue;
-      best = index;
-      best_distance2 = distance2;
-      best_cost_m = cost_m;
-    }
-  }
-  return best;
-}
-
-/// The unknown cells that share a face with a cell of the frontier, each once, in storage order.
-template <int Dim>
-[[nodiscard]] std::vector<Index<Dim>> unknown_beside(const OccupancyGrid<Dim>& occupancy,
-                                                     const Frontier<Dim>& frontier) {
-  std::vector<Index<Dim>> unknown;
-  for (const Index<Dim>& cell : frontier.cells) {
-    for (int axis = 0; axis < Dim; ++axis) {
-      for (const int side : {-1, 1}) {
-        Index<Dim> beside = cell;
-        beside[axis] += side;
-        if (occupancy.value(beside) == Occupancy::unknown) unknown.push_back(beside);
-      }
-    }
-  }
-  std::sort(unknown.begin(), unknown.end(), is_stored_before<Dim>);
-  unknown.erase(std::unique(unknown.begin(), unknown.end(), equal<Index<Dim>>), unknown.end());
-  return unknown;
-}
 
 /// Scratch of evaluate_candidates, kept from one call to the next.
 template <CellPolicy Cell>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,23 +16,21 @@
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/estimation/slam.hpp"
 #include "incognita/exploration/candidate.hpp"
+#include "incognita/exploration/frontier_information.hpp"
+#include "incognita/exploration/frontier_view.hpp"
 #include "incognita/exploration/set_aside.hpp"
 #include "incognita/exploration/stop_reason.hpp"
+#include "incognita/exploration/strategy.hpp"
 #include "incognita/frontier/frontier.hpp"
 #include "incognita/frontier/frontier_layer.hpp"
 #include "incognita/grid/distance_transform.hpp"
 #include "incognita/grid/traversal.hpp"
 #include "incognita/planning/collision_guard.hpp"
 #include "incognita/planning/follow.hpp"
+#include "incognita/planning/path.hpp"
 #include "incognita/planning/retreat.hpp"
 
 namespace incognita {
-
-/// What candidates are ranked by.
-enum class Ranking {
-  gain,           ///< the information gain alone, (16) and (18) of Seo et al.
-  gain_per_metre  ///< gain / (path length + travel_offset_m): what is near comes first
-};
 
 /// Parameters of an Explorer.
 struct ExplorerParams {
@@ -43,14 +42,16 @@ struct ExplorerParams {
   RetreatParams retreat;
   GainParams gain;
   SetAsideParams set_aside;
-  Ranking ranking = Ranking::gain_per_metre;
-  double travel_offset_m = 2.0;            ///< >= 0
-  int candidates_max = 40;                 ///< so many are compared, the cheapest to reach that are worth going, >= 1
-  double viewpoint_radius_m = 1.5;         ///< how near to a frontier the robot must be able to get
-  double gain_min_cells = 7.0;             ///< not worth going for less than the entropy of so many unknown cells
+  Strategy strategy = Strategy::last_mile;
+  FrontierInformation information = FrontierInformation::big;
+  NavigationCost navigation = NavigationCost::geodesic;
+  double travel_offset_m = 2.0;            ///< added to costs that are ways, so that what is at hand does not always win; >= 0
+  int candidates_max = 40;                 ///< so many are compared: of big the cheapest to reach that are worth going, >= 1
+  double visibility_tolerance_m = 0.05;    ///< frontiers must be seen from all places this near to a viewpoint, > 0
+  double information_min_m2 = 0.01;        ///< a viewpoint from where no more of the frontier is seen is not gone to, >= 0
+  double gain_min_cells = 7.0;             ///< nor is one, by big, for less than the entropy of so many unknown cells
   double decision_interval_s = 1.0;        ///< a goal that still leads somewhere is not reconsidered sooner
   double blocked_max_s = 1.0;              ///< standing before an obstacle for longer, the robot retreats from it
-  double sought_known_share = 0.7;         ///< decide anew when this share of what a goal should show is known
   double position_sigma_max_m = 1.0;       ///< lost beyond
   double lost_max_s = 10.0;                ///< lost when the filter has been lost for longer; the robot stands meanwhile
   double duration_max_s = std::numeric_limits<double>::infinity();  ///< out of time beyond
@@ -68,12 +69,14 @@ struct ExplorerParams {
     set_aside.validate();
     require_non_negative("ExplorerParams", "travel_offset_m", travel_offset_m);
     require(candidates_max >= 1, "ExplorerParams", "candidates_max", candidates_max, ">= 1");
-    require_positive("ExplorerParams", "viewpoint_radius_m", viewpoint_radius_m);
+    require_positive("ExplorerParams", "visibility_tolerance_m", visibility_tolerance_m);
+    const double sight_m = gain.range_max_m - visibility_tolerance_m;
+    require(sight_m > travel.clearance_hard_m(), "ExplorerParams", "gain.range_max_m - visibility_tolerance_m", sight_m,
+            "> travel.robot_radius_m + travel.margin_m");
+    require_non_negative("ExplorerParams", "information_min_m2", information_min_m2);
     require_non_negative("ExplorerParams", "gain_min_cells", gain_min_cells);
     require_non_negative("ExplorerParams", "decision_interval_s", decision_interval_s);
     require_positive("ExplorerParams", "blocked_max_s", blocked_max_s);
-    require(sought_known_share > 0.0 && sought_known_share <= 1.0, "ExplorerParams", "sought_known_share",
-            sought_known_share, "in (0, 1]");
     require_positive("ExplorerParams", "position_sigma_max_m", position_sigma_max_m);
     require_positive("ExplorerParams", "lost_max_s", lost_max_s);
     require(duration_max_s > 0.0, "ExplorerParams", "duration_max_s", duration_max_s, "> 0");
@@ -114,6 +117,7 @@ class Explorer {
         set_aside_(params.set_aside),
         reached_(slam_.map().grid().box()) {
     params_.validate();
+    static_cast<void>(visibility());  // refuses a range that cells as large as the map's leave nothing of
     rebuild_layers();
   }
 
@@ -138,6 +142,7 @@ class Explorer {
       occupancy_.follow(map());
       frontier_.follow(occupancy_);
     }
+    has_changed_ = has_changed_ || !occupancy_.changed_tiles().empty();
     reached_ = enclosing_box(reached_, cells_in_reach(map().lattice(), scan, belief().pose, map().hit_push_m()));
     extend_trail(belief().pose.position());
     return last_scan_.scan;
@@ -241,17 +246,39 @@ class Explorer {
   [[nodiscard]] bool goal_is_done() {
     const Candidate& goal = *decision_.chosen();
     if (std::exchange(must_decide_, false)) return true;
-    if (follower_.is_finished() || time_s_ > decision_.time_s + patience_s(goal)) {
+    if (time_s_ > goal_since_s_ + patience_s(goal) || (follower_.is_finished() && is_informative(goal))) {
       failed_ = goal.frontier_m;
       return true;
     }
-    if (path_is_blocked()) return true;
-    if (time_s_ < decision_.time_s + params_.decision_interval_s) return false;
-    const auto is_known = [&](const Index<2>& index) {
-      return params_.thresholds.classify(map().log_odds(index)) != Occupancy::unknown;
+    if (follower_.is_finished()) return true;
+    const bool was_clear = std::exchange(path_was_clear_, !path_is_blocked());
+    if (was_clear && !path_was_clear_) return true;
+    // No switch without a change of the map: planning anew could only swing.
+    if (time_s_ < decision_.time_s + params_.decision_interval_s || !has_changed_) return false;
+    switch (params_.strategy) {
+      case Strategy::persistent: return false;
+      case Strategy::last_mile: has_changed_ = false; return !is_informative(goal);
+      case Strategy::online: return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] ReliableVisibility visibility() const {
+    // A frontier's unknown neighbour lies one cell further than the frontier.
+    const double range_m = params_.gain.range_max_m - std::numbers::sqrt2 * map().resolution_m();
+    return {occupancy_.grid(), occupancy_.free(), {range_m, params_.visibility_tolerance_m}};
+  }
+
+  /// Whether enough of the frontier is still seen from a goal's viewpoint, asked of the goal's own frontier first.
+  [[nodiscard]] bool is_informative(const Candidate& goal) const {
+    std::vector<Index<2>> left;
+    for (const Index<2>& cell : goal.frontier) {
+      if (frontier_.contains(cell)) left.push_back(cell);
+    }
+    const auto is_enough = [&](const std::vector<Index<2>>& cells) {
+      return incognita::is_informative(goal.viewpoint, cells, visibility(), params_.information_min_m2);
     };
-    const auto known = std::count_if(goal.sought.begin(), goal.sought.end(), is_known);
-    return static_cast<double>(known) >= params_.sought_known_share * static_cast<double>(goal.sought.size());
+    return is_enough(left) || is_enough(frontier_.cells());
   }
 
   /// How long a drive may take: three times as long as at full speed, and time to turn.
@@ -271,22 +298,33 @@ class Explorer {
 
   bool choose() {
     reserve_reach();
+    has_changed_ = false;
     const OccupancyGrid<2>& occupancy = occupancy_.grid();
     if (failed_) set_aside_.add(*failed_, occupancy);
     failed_.reset();
     const std::vector<Frontier<2>> frontiers = cluster_frontier(map().lattice(), frontier_.cells(), params_.frontier);
     if (frontiers.empty()) return stop(StopReason::complete);
 
-    std::vector<Reachable> reachable = find_reachable(occupancy, frontiers);
-    if (reachable.empty()) return stop(StopReason::nothing_reachable);
-    std::erase_if(reachable, [&](const Reachable& r) { return set_aside_.contains(frontier_m(r), occupancy); });
-    std::vector<Candidate> candidates = first_informative(reachable, occupancy);
+    search_ways(occupancy);
+    std::vector<FrontierView> views =
+        find_views(frontiers, [&](const Index<2>& cell) { return frontier_.contains(cell); },
+                   [&](const Index<2>& cell) { return travel_costs_.reaches(cell); }, visibility(), viewpoints_);
+    if (views.empty()) return stop(StopReason::nothing_reachable);
+    std::erase_if(views, [&](const FrontierView& view) {
+      return view.seen_cells < least_cells_above(params_.information_min_m2, map().resolution_m()) || set_aside_.contains(frontier_m(frontiers[view.region]), occupancy);
+    });
+    std::vector<Candidate> candidates =
+        params_.information == FrontierInformation::big ? first_informative(views, frontiers) : most_useful(views, frontiers);
     if (candidates.empty()) return stop(StopReason::nothing_informative);
-    for (Candidate& candidate : candidates) candidate.utility = utility(candidate);
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.utility > b.utility; });
+    sort_by_utility(candidates);
+    const Candidate* const before = decision_.chosen();
+    const bool is_same_goal =
+        before != nullptr && distance(before->frontier_m, candidates.front().frontier_m) <= params_.set_aside.radius_m;
+    if (!is_same_goal) goal_since_s_ = time_s_;
     decision_ = {time_s_, std::move(candidates), std::nullopt};
     follower_ = PathFollower(decision_.chosen()->path.points_m(), params_.follow);
+    // Where the robot has been it may go though the belief has a wall there: deciding anew would change nothing.
+    path_was_clear_ = !path_is_blocked();
     return true;
   }
 
@@ -298,20 +336,12 @@ class Explorer {
     slam_.reserve(reached_m.padded(params_.gain.range_max_m + margin_m));
   }
 
-  /// A frontier that can be seen from a place that can be reached.
-  struct Reachable {
-    const Frontier<2>* frontier;
-    Index<2> viewpoint;
-    float cost_m;
-  };
-
-  [[nodiscard]] Eigen::Vector2d frontier_m(const Reachable& reachable) const {
-    return map().lattice().center_m(reachable.frontier->representative);
+  [[nodiscard]] Eigen::Vector2d frontier_m(const Frontier<2>& frontier) const {
+    return map().lattice().center_m(frontier.representative);
   }
 
-  /// Those of the frontiers, cheapest to reach first; travel_costs_ then has the ways there.
-  [[nodiscard]] std::vector<Reachable> find_reachable(const OccupancyGrid<2>& occupancy,
-                                                      const std::vector<Frontier<2>>& frontiers) {
+  /// Makes travel_costs_ the field of the ways from where the robot is.
+  void search_ways(const OccupancyGrid<2>& occupancy) {
     distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; }, clearance_m_);
     // Where the robot has been its body fits, however tight the belief draws the place: no door closes behind it.
     for (const Index<2>& cell : trail_) {
@@ -320,44 +350,74 @@ class Explorer {
       clearance = std::max(clearance, static_cast<float>(params_.travel.clearance_hard_m()));
     }
     travel_costs_.restart(occupancy, clearance_m_, belief().pose.position(), params_.travel);
-    std::vector<Reachable> found;
-    for (const Frontier<2>& frontier : frontiers) {
-      const auto viewpoint =
-          find_viewpoint(occupancy, travel_costs_, frontier.representative, params_.viewpoint_radius_m);
-      if (viewpoint) found.push_back({&frontier, *viewpoint, travel_costs_.cost_m(*viewpoint)});
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Reachable& a, const Reachable& b) { return a.cost_m < b.cost_m; });
-    return found;
   }
 
-  [[nodiscard]] Candidate candidate_for(const Reachable& reachable, const OccupancyGrid<2>& occupancy) const {
+  /// Without its path.
+  [[nodiscard]] Candidate candidate_for(const FrontierView& view, const Frontier<2>& frontier) const {
     Candidate candidate;
-    candidate.frontier_m = frontier_m(reachable);
-    candidate.sought = unknown_beside(occupancy, *reachable.frontier);
-    candidate.path = Polyline(shorten_path(travel_costs_, find_path(travel_costs_, reachable.viewpoint)));
+    candidate.frontier_m = frontier_m(frontier);
+    candidate.frontier = frontier.cells;
+    candidate.viewpoint = view.viewpoint;
+    candidate.navigation_cost = navigation_cost(params_.navigation, travel_costs_, view.viewpoint);
+    switch (params_.information) {
+      case FrontierInformation::uniform: candidate.information = 1.0; break;
+      case FrontierInformation::size: candidate.information = frontier_size_m2(frontier.cells, map().resolution_m()); break;
+      case FrontierInformation::entropy: candidate.information = frontier_entropy_nats_m2(frontier.cells, map(), entropy_); break;
+      case FrontierInformation::big: break;  // told by its path
+    }
+    rate(candidate);
     return candidate;
   }
 
-  /// The informative ones of the first candidates_max; when there are none, of the next, and so on.
-  [[nodiscard]] std::vector<Candidate> first_informative(const std::vector<Reachable>& reachable,
-                                                         const OccupancyGrid<2>& occupancy) {
+  void rate(Candidate& candidate) const {
+    const double offset_m = params_.navigation == NavigationCost::uniform ? 0.0 : params_.travel_offset_m;
+    candidate.utility = information_per_cost(candidate.information, candidate.navigation_cost + offset_m);
+  }
+
+  void add_path(Candidate& candidate) const {
+    candidate.path = Polyline(shorten_path(travel_costs_, find_path(travel_costs_, candidate.viewpoint)));
+  }
+
+  static void sort_by_utility(std::vector<Candidate>& candidates) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.utility > b.utility; });
+  }
+
+  /// The candidates_max of the most information per cost.
+  [[nodiscard]] std::vector<Candidate> most_useful(const std::vector<FrontierView>& views,
+                                                   const std::vector<Frontier<2>>& frontiers) const {
+    std::vector<Candidate> candidates;
+    for (const FrontierView& view : views) candidates.push_back(candidate_for(view, frontiers[view.region]));
+    sort_by_utility(candidates);
+    if (candidates.size() > static_cast<std::size_t>(params_.candidates_max)) {
+      candidates.erase(candidates.begin() + params_.candidates_max, candidates.end());
+    }
+    for (Candidate& candidate : candidates) add_path(candidate);
+    return candidates;
+  }
+
+  /// Those that gain enough of the candidates_max that are cheapest to reach; when there are none, of the next, and so on.
+  [[nodiscard]] std::vector<Candidate> first_informative(std::vector<FrontierView>& views, const std::vector<Frontier<2>>& frontiers) {
+    std::stable_sort(views.begin(), views.end(), [&](const FrontierView& a, const FrontierView& b) {
+      return travel_costs_.cost_m(a.viewpoint) < travel_costs_.cost_m(b.viewpoint);
+    });
     const double gain_min_nats = params_.gain_min_cells * entropy_(0.0F);
     std::vector<Candidate> informative;
     std::size_t next = 0;
-    while (informative.empty() && next < reachable.size()) {
-      const std::size_t end = std::min(reachable.size(), next + static_cast<std::size_t>(params_.candidates_max));
-      for (; next < end; ++next) informative.push_back(candidate_for(reachable[next], occupancy));
+    while (informative.empty() && next < views.size()) {
+      const std::size_t end = std::min(views.size(), next + static_cast<std::size_t>(params_.candidates_max));
+      for (; next < end; ++next) {
+        informative.push_back(candidate_for(views[next], frontiers[views[next].region]));
+        add_path(informative.back());
+      }
       evaluate_candidates(map(), entropy_, filter(), informative, params_.gain, params_.threads, candidate_scratch_);
       std::erase_if(informative, [&](const Candidate& c) { return c.gain_nats < gain_min_nats; });
     }
+    for (Candidate& candidate : informative) {
+      candidate.information = candidate.gain_nats;
+      rate(candidate);
+    }
     return informative;
-  }
-
-  [[nodiscard]] double utility(const Candidate& candidate) const {
-    return params_.ranking == Ranking::gain
-               ? candidate.gain_nats
-               : candidate.gain_nats / (candidate.path.length_m() + params_.travel_offset_m);
   }
 
   ExplorerParams params_;
@@ -367,6 +427,7 @@ class Explorer {
   FrontierLayer<2> frontier_;
   Grid<float, 2> clearance_m_;    // scratch of a decision, as the next
   TravelCostField travel_costs_;
+  ViewpointSearch viewpoints_;
   SetAsidePlaces set_aside_;
   SlamReport last_scan_;
   Decision decision_;
@@ -378,6 +439,9 @@ class Explorer {
   std::optional<Retreat> retreat_;
   std::optional<Eigen::Vector2d> retreated_on_way_to_;  // the frontier that the last retreat was on the way to
   bool must_decide_ = false;
+  bool path_was_clear_ = true;  // when last asked
+  double goal_since_s_ = 0.0;   // when the chosen frontier was chosen first
+  bool has_changed_ = false;  // the occupancy, since it was last asked for its goal
   double time_s_ = 0.0;
   double found_s_ = 0.0;      // when the filter was last not lost
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive
