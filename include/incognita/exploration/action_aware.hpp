@@ -54,10 +54,10 @@ struct ExplorationPlan {
 };
 
 /// explorationPlan(M, x), Algorithm 1, with information(frontier) a measure of Table II or any other. The same belief and
-/// start give the same plan: a loop must set aside a frontier that its viewpoint did not help to see (SetAsidePlaces). Ends, with the reason, when
-/// there is no frontier (complete), when no frontier's viewpoint can be reached, as from a start out of the planning space or in a
-/// belief without free cells (nothing_reachable), and when none that can be reached is informative (nothing_informative, (28)). Throws
-/// std::invalid_argument for bad parameters and for a start that is not finite.
+/// start give the same plan: a loop must set aside a frontier that its viewpoint did not help to see (SetAsidePlaces). Ends,
+/// with the reason, when there is no frontier (complete), when no frontier's viewpoint can be reached, as from a start out of
+/// the planning space or in a belief without free cells (nothing_reachable), and when none that can be reached is informative
+/// (nothing_informative, (28)). Throws std::invalid_argument for bad parameters and for a start that is not finite.
 template <class Information>
 [[nodiscard]] ExplorationPlan plan_exploration(const OccupancyGrid<2>& occupancy, const Eigen::Vector2d& start_m,
                                                const ActionAwareParams& params, Information&& information) {
@@ -69,22 +69,25 @@ template <class Information>
   const SafeSpaces spaces = safe_spaces(occupancy, params.body);
   field.restart(visit_cost(occupancy, spaces.plan, params.visit), start_m, params.steps);
   if (plan.frontiers.empty()) {
-    const bool is_anything_free = std::find(occupancy.values().begin(), occupancy.values().end(), Occupancy::free) != occupancy.values().end();
+    const std::vector<Occupancy>& all = occupancy.values();
+    const bool is_anything_free = std::find(all.begin(), all.end(), Occupancy::free) != all.end();
     plan.ended = is_anything_free ? StopReason::complete : StopReason::nothing_reachable;
     return plan;
   }
   const CellBits free = free_cells(occupancy);
   const ReliableVisibility visibility(occupancy, free, params.visibility);
+  const auto is_frontier = [&](const Index<2>& cell) {
+    return std::binary_search(cells.begin(), cells.end(), cell, is_stored_before<2>);
+  };
+  const auto is_reached = [&](const Index<2>& cell) { return field.reaches(cell); };
   ViewpointSearch search;
-  plan.views = find_views(plan.frontiers, [&](const Index<2>& cell) { return std::binary_search(cells.begin(), cells.end(), cell, is_stored_before<2>); },
-                          [&](const Index<2>& cell) { return field.reaches(cell); }, visibility, search);
+  plan.views = find_views(plan.frontiers, is_frontier, is_reached, visibility, search);
   if (plan.views.empty()) {
     plan.ended = StopReason::nothing_reachable;
     return plan;
   }
-  std::erase_if(plan.views, [&](const FrontierView& view) {
-    return view.seen_cells < least_cells_above(params.information_min_m2, occupancy.resolution_m());
-  });
+  const std::size_t least_cells = least_cells_above(params.information_min_m2, occupancy.resolution_m());
+  std::erase_if(plan.views, [=](const FrontierView& view) { return view.seen_cells < least_cells; });
   const FrontierView* chosen = choose_view(plan.views, field, params.navigation,
                                            [&](const FrontierView& view) { return information(plan.frontiers[view.region]); });
   if (chosen == nullptr) {
