@@ -1,9 +1,10 @@
-/// geometry/: poses in the plane, twists, axis-aligned boxes. A pose named T_a_b takes coordinates in frame b to coordinates in
+/// geometry/: poses in the plane, twists, axis-aligned boxes, polygons. A pose named T_a_b takes coordinates in frame b to coordinates in
 /// frame a. Poses in space are in geometry/pose3.hpp, which costs time to compile.
 #pragma once
 
 #include "incognita/geometry/box.hpp"
 #include "incognita/geometry/disc_hull.hpp"
+#include "incognita/geometry/polygon.hpp"
 #include "incognita/geometry/pose.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/principal_axes.hpp"

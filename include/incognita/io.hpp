@@ -8,6 +8,7 @@
 /// - io/robot_log_file.hpp: read_robot_log, scans with odometry, by the file's name
 /// - io/intel_json.hpp, carmen_log.hpp, robot_log.hpp: read_intel_json (nlohmann/json) and read_carmen_log
 /// - io/relations.hpp: read_relations, measured relations between poses
+/// - io/polygons.hpp: read_polygons, no-go areas
 /// - io/png.hpp, pgm.hpp, image.hpp: read_png and write_png (libpng), read_pgm and write_pgm
 /// - io/image_file.hpp: read_image, a PNG or a PGM, by its first bytes
 /// - io/read_file.hpp, atomic_file.hpp, number.hpp, text_lines.hpp: what the formats are made of
@@ -38,6 +39,7 @@
 #include "incognita/io/number.hpp"
 #include "incognita/io/pgm.hpp"
 #include "incognita/io/png.hpp"
+#include "incognita/io/polygons.hpp"
 #include "incognita/io/read_file.hpp"
 #include "incognita/io/relations.hpp"
 #include "incognita/io/robot_log.hpp"

@@ -2,10 +2,12 @@
 /// that serves all goals; `find_path` and `shorten_path` turn it into a path; `PathFollower` follows a path;
 /// `guard_command` slows the robot down before what its latest scan shows; `Retreat` takes it out of a tight
 /// place. `safe_spaces`, `visit_cost` and `SafePathFollower` are the planning of Isleyen et al.: where a body fits, paths that keep
-/// clear of walls and near to the unknown, and a unicycle that follows them without leaving where it fits. Each part works
-/// without the others.
+/// clear of walls and near to the unknown, and a unicycle that follows them without leaving where it fits. `AllowedArea` is where a
+/// user lets the robot be. Each part works without the others.
 #pragma once
 
+#include "incognita/planning/allowed_area.hpp"
+#include "incognita/planning/closed_cells.hpp"
 #include "incognita/planning/collision_guard.hpp"
 #include "incognita/planning/follow.hpp"
 #include "incognita/planning/path.hpp"

@@ -126,6 +126,51 @@ TEST_CASE("What follows a map where an unknown cell across a corner makes a fron
   follow_scans(TBayes(), corners, 100, 8.0);
 }
 
+TEST_CASE("Cells that are closed are no frontier and make none", "[frontier]") {
+  Random random(7);
+  Map<TBayes> map({0.2, 0.5});
+  CellBits closed(map.lattice(), false);
+  closed.grow_to_include({{-200, -200}, {200, 200}});
+  for (int y = -200; y < 200; ++y) {
+    for (int x = -200; x < 200; ++x) closed.set({x, y}, x + y / 2 > 10 || (x > -12 && x < -4 && y > -9));
+  }
+  OccupancyLayer<2> occupancy(map.lattice());
+  FrontierLayer<2> frontier(map.lattice());
+  FrontierLayer<2> open(map.lattice());
+  std::size_t left_out = 0;
+  for (int n = 0; n < 60; ++n) {
+    map.update(room_scan(random), {random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-3.0, 3.0)},
+               Eigen::Matrix3d::Identity() * 1e-3);
+    occupancy.follow(map);
+    frontier.follow(occupancy, &closed);
+    open.follow(occupancy);
+    const auto is_near_wall = [&](const Index<2>& cell) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (occupancy.grid().value({cell[0] + dx, cell[1] + dy}) == Occupancy::occupied) return true;
+        }
+      }
+      return false;
+    };
+    std::vector<Index<2>> expected;
+    for (const Index<2>& cell : open.cells()) {
+      bool opens = false;
+      for (const Index<2>& step : neighbor_steps<2>(Adjacency::faces)) {
+        const Index<2> beside = cell + step;
+        opens = opens || (occupancy.grid().value(beside) == Occupancy::unknown && !closed.get(beside) && !is_near_wall(beside));
+      }
+      if (opens && !closed.get(cell)) expected.push_back(cell);
+    }
+    left_out += open.cells().size() - expected.size();
+    CAPTURE(n);
+    REQUIRE(frontier.cells() == expected);
+  }
+  REQUIRE(left_out > 500);
+  FrontierLayer<2> anew(map.lattice());
+  anew.rebuild(occupancy, &closed);
+  REQUIRE(anew.cells() == frontier.cells());
+}
+
 TEST_CASE("What follows an empty map is empty", "[frontier]") {
   const Map<> map;
   Followers<TBayes> followers(map.lattice(), {});

@@ -199,6 +199,22 @@ TEST_CASE("A robot that stands too near to a wall gets away and not back", "[pla
   REQUIRE_FALSE(beside.reaches({7, 3}));
 }
 
+TEST_CASE("A robot does not escape through what is closed to it, but gets out of it", "[planning]") {
+  // A wall on the left that the robot stands too near to, and a strip without clearance right of it.
+  OccupancyGrid<2> belief(Lattice<2>(0.1), {Index<2>(0, 0), Index<2>(30, 12)}, Occupancy::unknown);
+  belief.values().assign(belief.size(), Occupancy::free);
+  for (int y = 0; y < 12; ++y) belief.set({0, y}, Occupancy::occupied);
+  Grid<float, 2> clearance_m = clearance_of(belief);
+  REQUIRE(TravelCostField(belief, clearance_m, {0.15, 0.55}).reaches({8, 5}));
+  for (int y = 0; y < 12; ++y) {
+    for (int x = 2; x < 5; ++x) clearance_m[clearance_m.offset_of({x, y})] = 0.0F;
+  }
+  REQUIRE_FALSE(TravelCostField(belief, clearance_m, {0.15, 0.55}).reaches({8, 5}));
+  const TravelCostField within(belief, clearance_m, {0.35, 0.55});
+  REQUIRE(within.reaches({8, 5}));
+  REQUIRE_FALSE(within.reaches({3, 5}));
+}
+
 TEST_CASE("A robot in a cell that the belief calls occupied gets away", "[planning]") {
   OccupancyGrid<2> belief(Lattice<2>(0.1), {Index<2>(0, 0), Index<2>(30, 30)}, Occupancy::unknown);
   belief.values().assign(belief.size(), Occupancy::free);

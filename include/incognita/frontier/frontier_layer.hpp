@@ -26,22 +26,23 @@ class FrontierLayer {
   }
 
   /// Takes over what the last follow or rebuild of the layer changed; to be called after each. A cell belongs to the frontier by
-  /// the cells up to two away. O(tiles changed).
-  void follow(const OccupancyLayer<Dim>& occupancy) {
+  /// the cells up to two away. `closed` has a bit for each cell that does not count, neither as free nor as unknown: the same at
+  /// each call, null when all count. O(tiles changed).
+  void follow(const OccupancyLayer<Dim>& occupancy, const CellBits* closed = nullptr) {
     make_room_for(occupancy);
     for (const Index<Dim>& tile : occupancy.changed_tiles()) {
       for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) find_in(occupancy, {tile[0] + dx, tile[1] + dy});
+        for (int dx = -1; dx <= 1; ++dx) find_in(occupancy, closed, {tile[0] + dx, tile[1] + dy});
       }
     }
     drop_emptied();
   }
 
   /// Takes a layer as it is. O(tiles).
-  void rebuild(const OccupancyLayer<Dim>& occupancy) {
+  void rebuild(const OccupancyLayer<Dim>& occupancy, const CellBits* closed = nullptr) {
     *this = FrontierLayer(occupancy.grid().lattice(), params_);
     make_room_for(occupancy);
-    for_each_tile_of(occupancy.grid().box(), [&](const Index<Dim>& tile) { find_in(occupancy, tile); });
+    for_each_tile_of(occupancy.grid().box(), [&](const Index<Dim>& tile) { find_in(occupancy, closed, tile); });
   }
 
   [[nodiscard]] bool contains(const Index<Dim>& cell) const { return frontier_.get(cell); }
@@ -64,15 +65,16 @@ class FrontierLayer {
     listed_.grow_to_include(frontier_.tiles().box());
   }
 
-  void find_in(const OccupancyLayer<Dim>& occupancy, const Index<Dim>& tile) {
+  void find_in(const OccupancyLayer<Dim>& occupancy, const CellBits* closed, const Index<Dim>& tile) {
     if (!frontier_.tiles().contains(tile)) return;
-    const CellBits::Word free = occupancy.free().tiles().value(tile);
+    const auto is_open = [&](const Index<Dim>& at) { return closed == nullptr ? ~CellBits::Word{0} : ~closed->tiles().value(at); };
+    const CellBits::Word free = occupancy.free().tiles().value(tile) & is_open(tile);
     CellBits::Word& frontier = frontier_.tiles()[frontier_.tiles().offset_of(tile)];
     frontier = 0;
     if (free == 0) return;
     const auto is_occupied = [&](const Index<Dim>& at) { return occupancy.occupied().tiles().value(at); };
     const TileNeighbors open(tile, [&](const Index<Dim>& at) {
-      const CellBits::Word unknown = ~(occupancy.free().tiles().value(at) | is_occupied(at));
+      const CellBits::Word unknown = ~(occupancy.free().tiles().value(at) | is_occupied(at)) & is_open(at);
       if (unknown == 0 || !params_.ignore_unknown_near_walls) return unknown;
       return unknown & ~TileNeighbors(at, is_occupied).dilated();
     });

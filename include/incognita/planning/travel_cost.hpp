@@ -67,7 +67,7 @@ class TravelCostField {
 
   /// Makes this the field of another start or belief on the same lattice; storage is used again.
   /// `clearance_m` holds the distance from each cell's centre to the centre of the nearest occupied one, as
-  /// distance_transform_m returns it. Nothing can be reached from a start outside of the grid's box. Throws
+  /// distance_transform_m returns it, or to anything else that the robot must keep clear of. Nothing can be reached from a start outside of the grid's box. Throws
   /// std::invalid_argument for bad parameters, a start that is not finite, and grids with different boxes; the field is then
   /// as it was. O(cells) to set up and O(reached cells) to search: a bucket queue (Dial 1969), exact because no step is
   /// cheaper than a bucket is wide.
@@ -91,7 +91,7 @@ class TravelCostField {
     }
     start_ = occupancy.lattice().index_of(start_m);
     rate_cells(occupancy, clearance_m, params);
-    if (!is_proper(start_)) open_escape(occupancy, params);
+    if (!is_proper(start_)) open_escape(occupancy, clearance_m, params);
     search(Adjacency::corners, 1.0, params.escape_cost_per_m);
     for (const Index<2>& index : escape_) cost_m_.set(index, infinite);
   }
@@ -188,17 +188,21 @@ class TravelCostField {
     }
   }
 
-  void open_escape(const OccupancyGrid<2>& occupancy, const TravelParams& params) {
+  void open_escape(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m, const TravelParams& params) {
     const auto escape = static_cast<float>(params.escape_cost_per_m);
     const int reach = static_cast<int>(
         std::min(params.escape_radius_m / occupancy.resolution_m(), static_cast<double>(occupancy.size())));
     const IndexBox<2>& box = occupancy.box();
+    // Where there is no clearance at all, a place that is closed to the robot, it may go only to get out of such a place.
+    const bool is_closed = clearance_m[clearance_m.offset_of(start_)] == 0.0F;
     for (int y = std::max(start_[1] - reach, box.lower[1]); y < std::min(start_[1] + reach + 1, box.upper[1]); ++y) {
       for (int x = std::max(start_[0] - reach, box.lower[0]); x < std::min(start_[0] + reach + 1, box.upper[0]); ++x) {
         const Index<2> index(x, y);
         const Eigen::Vector2d offset(x - start_[0], y - start_[1]);
         if (norm(offset) * occupancy.resolution_m() > params.escape_radius_m || is_proper(index)) continue;
-        if (equal(index, start_) || occupancy.value(index) != Occupancy::occupied) escape_.push_back(index);
+        const bool is_open = occupancy.value(index) != Occupancy::occupied &&
+                             (is_closed || clearance_m[clearance_m.offset_of(index)] > 0.0F);
+        if (equal(index, start_) || is_open) escape_.push_back(index);
       }
     }
     for (const Index<2>& index : escape_) cost_per_m_.set(index, escape);
