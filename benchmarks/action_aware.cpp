@@ -91,7 +91,7 @@ void views(benchmark::State& state) {
   for (auto _ : state) {
     found = find_views(frontiers,
                        [&](const Index<2>& cell) { return std::binary_search(cells.begin(), cells.end(), cell, is_stored_before<2>); },
-                       [&](const Index<2>& cell) { return safe.plan.value(cell) != 0; }, visibility, search).size();
+                       [&](const Index<2>& cell) { return safe.plan.value(cell) != 0; }, visibility, 0.01, search).size();
   }
   state.counters["frontiers"] = static_cast<double>(frontiers.size());
   state.counters["frontier_cells"] = static_cast<double>(cells.size());

@@ -1,6 +1,7 @@
 // A simulated robot explores a floor plan and reports how well it went.
 #include <unistd.h>
 
+#include <concepts>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -15,9 +16,11 @@
 #include "incognita/estimation/dead_reckoning.hpp"
 #include "incognita/io/floor_plan.hpp"
 #include "incognita/io/kth_xml.hpp"
+#include "incognita/io/polygons.hpp"
 #include "incognita/loops/loop_closure.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/simulation/start.hpp"
+#include "kth_explorer/allowed_floor.hpp"
 #include "kth_explorer/embedded_floor_plan.hpp"
 #include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
@@ -43,11 +46,22 @@ incognita::World load_world(const Options& options) {
                               : incognita::read_floor_plan(options.map_file));
 }
 
-incognita::Pose2 start_pose(const Options& options, const incognita::World& world, double radius_m) {
+incognita::AllowedArea allowed_area(const Options& options) {
+  incognita::AllowedArea area;
+  if (options.bounds_m) {
+    const auto [x0_m, y0_m, x1_m, y1_m] = *options.bounds_m;
+    area.bounds = {{x0_m, y0_m}, {x1_m, y0_m}, {x1_m, y1_m}, {x0_m, y1_m}};
+  }
+  if (!options.no_go_file.empty()) area.no_go = incognita::read_polygons(options.no_go_file);
+  return area;
+}
+
+/// On the floor that the robot is asked to explore.
+incognita::Pose2 start_pose(const Options& options, const incognita::World& floor) {
   incognita::Random random(options.seed);
   try {
-    if (!options.start_m) return random_start(world, radius_m, random);
-    check_start(world, *options.start_m, radius_m);
+    if (!options.start_m) return random_start(floor, options.robot_radius_m, random);
+    check_start(floor, *options.start_m, options.robot_radius_m);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument((options.start_m ? "--start" : options.map_file) + ": " + error.what());
   }
@@ -93,6 +107,9 @@ void print_table(const nlohmann::ordered_json& metrics, const std::filesystem::p
 template <class Filter>
 Filter make_filter(const Options& options) {
   typename Filter::Params params;
+  if constexpr (std::same_as<Filter, incognita::DeadReckoning>) {
+    if (options.filter == "none") params.noise = {0.0, 0.0};
+  }
   if constexpr (requires { params.uses_compass; }) params.uses_compass = options.compass == "on";
   if constexpr (requires { params.loops.closes_loops; }) params.loops.closes_loops = options.loops == "on";
   return Filter(params);
@@ -117,15 +134,16 @@ incognita::NavigationCost navigation_of(const std::string& name) {
 
 template <class Cell, class Filter>
 void explore(const Options& options, incognita::Simulator& simulator, const incognita::RobotParams& robot,
-             double range_max_m, examples::OutputFolder& output) {
+             const incognita::World& floor, const incognita::AllowedArea& area, examples::OutputFolder& output) {
   using namespace incognita;
   ExplorerParams params;
   params.travel.robot_radius_m = robot.radius_m;
   params.guard.robot_radius_m = robot.radius_m;
-  params.gain.range_max_m = range_max_m;
+  params.gain.range_max_m = simulator.scan().range_max_m();
   params.strategy = strategy_of(options.strategy);
   params.information = information_of(options.information);
   params.navigation = navigation_of(options.navigation);
+  params.area = area.transformed(simulator.T_start_world());
   params.threads = options.threads;
   MapParams map_params;
   map_params.resolution_m = options.resolution_m;
@@ -135,7 +153,8 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   std::function<void(const ProgressRecord&)> report;
   if (!options.quiet) report = [&](const ProgressRecord& p) { print_progress(p, options.duration_s); };
   const Pose2 T_world_start = simulator.T_start_world().inverse();
-  const MissionRecord record = run_mission(explorer, simulator, robot.radius_m, range_max_m, options.duration_s, report);
+  const MissionParams mission{robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
+  const MissionRecord record = run_mission(explorer, simulator, floor, mission, report);
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
   write_file_atomically(output.staged("metrics.json"), metrics.dump(2) + "\n");
@@ -144,7 +163,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   write_tum(output.staged("trajectory_estimated.tum"), record.estimated);
   write_tum(output.staged("trajectory_true.tum"), record.truth);
   examples::write_map(output.staged("map.yaml"), explorer.map(), explorer.params().thresholds);
-  draw_overview(output.staged("overview.png"), explorer.map(), simulator.world().plan(), T_world_start, record);
+  draw_overview(output.staged("overview.png"), explorer.map(), simulator.world().plan(), area, T_world_start, record);
   output.publish();
   if (!options.quiet) print_table(metrics, output.path());
 }
@@ -152,19 +171,22 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
 void run(const Options& options) {
   using namespace incognita;
   SimulatorParams params;
+  params.robot.radius_m = options.robot_radius_m;
+  if (options.filter == "none") params.odometry = {0.0, 0.0};
   World world = load_world(options);
-  const Pose2 T_world_start = start_pose(options, world, params.robot.radius_m);
+  const AllowedArea area = allowed_area(options);
+  const World floor = allowed_floor(world, area);
+  const Pose2 T_world_start = start_pose(options, floor);
   examples::OutputFolder output(options.output, {"metrics.json", "decisions.csv", "progress.csv", "trajectory_estimated.tum",
                                                  "trajectory_true.tum", "map.yaml", "map.png", "overview.png"});
   Simulator simulator(std::move(world), T_world_start, params, options.seed);
-  const double range_max_m = simulator.scan().range_max_m();
   const bool coupled = options.filter == "dvl-ekf";
   if (options.cells == "tbayes") {
-    coupled ? explore<TBayes, LoopClosingDvlEkf>(options, simulator, params.robot, range_max_m, output)
-            : explore<TBayes, DeadReckoning>(options, simulator, params.robot, range_max_m, output);
+    coupled ? explore<TBayes, LoopClosingDvlEkf>(options, simulator, params.robot, floor, area, output)
+            : explore<TBayes, DeadReckoning>(options, simulator, params.robot, floor, area, output);
   } else {
-    coupled ? explore<LogOdds, LoopClosingDvlEkf>(options, simulator, params.robot, range_max_m, output)
-            : explore<LogOdds, DeadReckoning>(options, simulator, params.robot, range_max_m, output);
+    coupled ? explore<LogOdds, LoopClosingDvlEkf>(options, simulator, params.robot, floor, area, output)
+            : explore<LogOdds, DeadReckoning>(options, simulator, params.robot, floor, area, output);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,11 +45,18 @@ struct ProgressRecord {
   double entropy_drop_nats;  ///< Shannon entropy of a map of which nothing is known minus that of the map now
   double position_error_m;
   double three_sigma_m;
-  double nees;
+  double nees;  ///< NaN where the pose is known
   double distance_m;
 };
 
-/// All that a mission leaves, in the robot's start frame.
+struct MissionParams {
+  double robot_radius_m;
+  double range_max_m;
+  double duration_s;
+  bool returns;  ///< to the start, in the end
+};
+
+/// All that a mission leaves, in the robot's start frame. The way back is in both trajectories and in return_distance_m alone.
 struct MissionRecord {
   std::vector<incognita::TimedPose2> estimated;
   std::vector<incognita::TimedPose2> truth;
@@ -57,6 +66,8 @@ struct MissionRecord {
   incognita::TrajectoryError trajectory_error;
   incognita::MeanNees nees;
   incognita::StopReason stop_reason = incognita::StopReason::out_of_time;
+  std::optional<bool> has_returned;  ///< none when it was not asked to
+  double return_distance_m = 0.0;
   std::size_t scans = 0;
   std::size_t collisions = 0;
   std::size_t touched_cells = 0;
@@ -76,17 +87,18 @@ struct MissionRecord {
   }
 };
 
-/// Drives `explorer` in `simulator` until it stops or duration_s is over. `report` is called once a simulated second.
+/// Drives `explorer` in `simulator` until it stops or duration_s is over, and then back if asked to. `floor` is what it is asked to
+/// explore. `report` is called once a simulated second of the exploration.
 template <class Explorer>
-[[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, double robot_radius_m,
-                                        double range_max_m, double duration_s,
-                                        const std::function<void(const ProgressRecord&)>& report) {
+[[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, const incognita::World& floor,
+                                        const MissionParams& params, const std::function<void(const ProgressRecord&)>& report) {
   using namespace incognita;
   const Clock::time_point begin = Clock::now();
   const Pose2& T_start_world = simulator.T_start_world();
-  const Coverage coverage(visible_floor(simulator.world(), simulator.T_world_robot().position(), robot_radius_m, range_max_m),
-                          T_start_world, explorer.map().lattice());
-  const EntropyTable shannon{Shannon{}};
+  const Coverage coverage(
+      visible_floor(floor, simulator.T_world_robot().position(), params.robot_radius_m, params.range_max_m), T_start_world,
+      explorer.map().lattice());
+  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   const auto is_known = [&](const Index<2>& cell) {
     return explorer.occupancy().grid().value(cell) != Occupancy::unknown;
   };
@@ -94,6 +106,8 @@ template <class Explorer>
   information.rebuild(explorer.map());
 
   MissionRecord record;
+  // Of a pose that is known there is nothing to say.
+  const auto is_estimated = [&] { return position_sigma_m(explorer.belief().covariance) > 0.0; };
   const auto progress = [&] {
     const PoseBelief& belief = explorer.belief();
     const Pose2 truth = simulator.T_start_robot();
@@ -102,7 +116,7 @@ template <class Explorer>
                           information.information_nats(),
                           (belief.pose.position() - truth.position()).norm(),
                           3.0 * position_sigma_m(belief.covariance),
-                          position_nees(belief.pose, truth, belief.covariance),
+                          is_estimated() ? position_nees(belief.pose, truth, belief.covariance) : not_a_number,
                           simulator.distance_m()};
   };
   const auto observe_and_decide = [&] {
@@ -119,7 +133,7 @@ template <class Explorer>
       const auto& candidates = explorer.decision().candidates;
       record.decisions.push_back({simulator.time_s(), candidates.size(), chosen->goal_m(), chosen->gain_nats,
                                   candidates.size() > 1 ? candidates[1].gain_nats
-                                                        : std::numeric_limits<double>::quiet_NaN(),
+                                                        : not_a_number,
                                   seconds_since(start)});
     }
   };
@@ -130,35 +144,45 @@ template <class Explorer>
   const auto remember = [&] {
     const Pose2 truth = simulator.T_start_robot();
     record.trajectory_error.add(explorer.belief().pose, truth);
-    record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
+    if (is_estimated()) record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
     if (simulator.scan_is_new()) remember_poses();
   };
 
   // Steps are counted, so that the end does not depend on how a time is rounded.
   constexpr double step_s = 0.02;
-  const auto steps_max = static_cast<std::size_t>(std::ceil(duration_s / step_s - 1e-9));
+  const auto steps_max = static_cast<std::size_t>(std::ceil(params.duration_s / step_s - 1e-9));
   observe_and_decide();
   remember_poses();
   Twist2 command = explorer.command(simulator.scan());
-  while (!explorer.stopped() && simulator.steps() < steps_max) {
+  const auto drive_step = [&] {
     explorer.move(simulator.step(command), step_s);
     if (simulator.scan_is_new()) {
       observe_and_decide();
       command = explorer.command(simulator.scan());
     }
     remember();
+  };
+  while (!explorer.stopped() && simulator.steps() < steps_max) {
+    drive_step();
     if (simulator.steps() % 50 == 0) {
       record.progress.push_back(progress());
       if (report) report(record.progress.back());
     }
   }
-
   const ProgressRecord last = progress();
   if (record.progress.empty() || record.progress.back().time_s < last.time_s) record.progress.push_back(last);
   record.stop_reason = explorer.stopped().value_or(StopReason::out_of_time);
-  record.collisions = simulator.collisions();
   record.distance_m = simulator.distance_m();
   record.duration_s = simulator.time_s();
+  record.wall_time_s = seconds_since(begin);
+
+  if (params.returns) {
+    explorer.return_to_start();
+    while (!explorer.stopped() && simulator.steps() < 2 * steps_max) drive_step();
+    record.has_returned = explorer.stopped() == StopReason::returned;
+    record.return_distance_m = simulator.distance_m() - record.distance_m;
+  }
+  record.collisions = simulator.collisions();
   record.explored_fraction = last.explored_fraction;
   record.floor_area_m2 = coverage.floor_area_m2();
   record.map_uncertainty_bits_per_step = map_uncertainty_bits_per_step(last.entropy_drop_nats, 0.0, simulator.steps());
@@ -166,12 +190,10 @@ template <class Explorer>
       explorer.map(), truly_occupied_cells(simulator.world().plan(), T_start_world, explorer.map().lattice()));
   record.map_error = error.value();
   record.touched_cells = error.occupied_count() + error.free_count();
-  const OccupancyGrid<2>& occupancy = explorer.occupancy().grid();
-  for (const Frontier<2>& frontier : find_frontiers(occupancy, explorer.params().frontier)) {
+  for (const Frontier<2>& frontier : explorer.frontiers()) {
     std::vector<Eigen::Vector2d>& cells_m = record.last_frontiers.emplace_back();
-    for (const Index<2>& cell : frontier.cells) cells_m.push_back(occupancy.lattice().center_m(cell));
+    for (const Index<2>& cell : frontier.cells) cells_m.push_back(explorer.map().lattice().center_m(cell));
   }
-  record.wall_time_s = seconds_since(begin);
   return record;
 }
 

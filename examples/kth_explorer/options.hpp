@@ -1,6 +1,7 @@
 /// The command line of kth_explorer.
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -26,6 +27,10 @@ struct Options {
   std::string strategy = "last-mile";
   std::string information = "big";
   std::string navigation = "geodesic";
+  double robot_radius_m = 0.2;
+  std::optional<std::array<double, 4>> bounds_m;  ///< x0, y0, x1, y1 in the map file's frame
+  std::string no_go_file;                         ///< empty: no no-go areas
+  bool returns = false;
   double duration_s = 1800.0;
   std::uint64_t seed = 1;
   std::optional<Eigen::Vector2d> start_m;  ///< in the map file's frame
@@ -47,6 +52,7 @@ struct Options {
 [[nodiscard]] inline Options parse_options(CLI::App& app, int argc, char** argv) {
   Options options;
   std::string start;
+  std::string bounds;
   app.add_option("--map", options.map_file, "floor plan; without it, the embedded office floor of 55 x 25 m")
       ->type_name("FILE.yaml|FILE.xml")
       ->check(examples::refuse_empty);
@@ -59,8 +65,8 @@ struct Options {
   app.add_option("--alpha", options.alpha, "parameter of the entropy (q of tsallis; shannon has none), > 0")
       ->type_name("A")
       ->capture_default_str();
-  app.add_option("--filter", options.filter, "how the pose is estimated")
-      ->check(CLI::IsMember({"dvl-ekf", "dead-reckoning"}))
+  app.add_option("--filter", options.filter, "how the pose is estimated; none: odometry has no noise, so that the pose is known")
+      ->check(CLI::IsMember({"dvl-ekf", "dead-reckoning", "none"}))
       ->capture_default_str();
   app.add_option("--compass", options.compass, "whether the filter takes headings from walls that stand at right angles")
       ->check(CLI::IsMember({"on", "off"}))
@@ -72,8 +78,8 @@ struct Options {
                  "plan anew at a viewpoint, as soon as it is no longer informative, or every second if the map has changed")
       ->check(CLI::IsMember({"persistent", "last-mile", "online"}))
       ->capture_default_str();
-  app.add_option("--information", options.information, "what a frontier is worth: 1, its size, its entropy, or the information gain "
-                                                       "of the path to it")
+  app.add_option("--information", options.information, "what a frontier is worth: 1 (with geodesic, the nearest is gone to), its size, its entropy, or the "
+                                                       "information gain of the path to it")
       ->check(CLI::IsMember({"uniform", "size", "entropy", "big"}))
       ->capture_default_str();
   app.add_option("--navigation", options.navigation, "what that is divided by: nothing, the straight line, or the cost of the way")
@@ -89,6 +95,16 @@ struct Options {
   app.add_option("--start", start, "start in the map file's frame, in metres; without it, a seeded place in the largest region")
       ->type_name("X,Y")
       ->check(examples::refuse_empty);
+  app.add_option("--radius", options.robot_radius_m, "of the robot, in metres, > 0: what it cannot reach is not gone to")
+      ->type_name("M")
+      ->capture_default_str();
+  app.add_option("--bounds", bounds, "box in the map file's frame, in metres, that the robot stays in and explores")
+      ->type_name("X0,Y0,X1,Y1")
+      ->check(examples::refuse_empty);
+  app.add_option("--no-go", options.no_go_file, "polygons in the map file's frame that it keeps out of: a line each, as 0,0 4,0 4,2.5")
+      ->type_name("FILE")
+      ->check(examples::refuse_empty);
+  app.add_flag("--return", options.returns, "drive back to the start in the end");
   app.add_option("--resolution", options.resolution_m, "side of a cell of the belief, in metres, 0.02 to 1")
       ->type_name("M")
       ->capture_default_str();
@@ -110,6 +126,13 @@ struct Options {
           "--duration: " + shown(options.duration_s) + " s is not in (0, 1e7]");
   require(options.resolution_m >= 0.02 && options.resolution_m <= 1.0,
           "--resolution: " + shown(options.resolution_m) + " m is not in 0.02..1");
+  require(options.robot_radius_m > 0.0 && options.robot_radius_m <= 5.0,
+          "--radius: " + shown(options.robot_radius_m) + " m is not in (0, 5]");
+  if (!bounds.empty()) {
+    options.bounds_m = examples::parse_numbers<4>("--bounds", bounds, "X0,Y0,X1,Y1 with finite numbers in metres");
+    const auto [x0_m, y0_m, x1_m, y1_m] = *options.bounds_m;
+    require(x0_m < x1_m && y0_m < y1_m, "--bounds: \"" + bounds + "\" must have X0 < X1 and Y0 < Y1");
+  }
   if (!start.empty()) {
     const auto [x_m, y_m] = examples::parse_numbers<2>("--start", start, "X,Y with finite numbers in metres");
     options.start_m = Eigen::Vector2d(x_m, y_m);

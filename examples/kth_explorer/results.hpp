@@ -12,6 +12,7 @@
 
 #include "incognita/io/atomic_file.hpp"
 #include "incognita/io/tum.hpp"
+#include "incognita/planning/allowed_area.hpp"
 #include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
 #include "support/belief_output.hpp"
@@ -72,6 +73,7 @@ class CsvText {
   json["filter"] = options.filter;
   json["compass"] = options.compass;
   json["loops"] = options.loops;
+  json["robot_radius_m"] = options.robot_radius_m;
   json["strategy"] = options.strategy;
   json["information"] = options.information;
   json["navigation"] = options.navigation;
@@ -82,10 +84,12 @@ class CsvText {
   json["collisions"] = record.collisions;
   json["decisions"] = record.decisions.size();
   json["stop_reason"] = std::string(to_string(record.stop_reason));
+  json["returned"] = record.has_returned ? nlohmann::ordered_json(*record.has_returned) : nlohmann::ordered_json();
+  json["return_distance_m"] = record.has_returned ? nlohmann::ordered_json(record.return_distance_m) : nlohmann::ordered_json();
   json["translation_rmse_m"] = record.trajectory_error.translation_rmse_m();
   json["translation_mae_m"] = record.trajectory_error.translation_mae_m();
   json["heading_rmse_rad"] = record.trajectory_error.heading_rmse_rad();
-  json["nees_mean"] = record.nees.position();
+  json["nees_mean"] = record.nees.count() == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(record.nees.position());
   json["map_error"] = record.map_error;
   json["map_uncertainty_bits_per_step"] = record.map_uncertainty_bits_per_step;
   json["explored_fraction"] = record.explored_fraction;
@@ -102,7 +106,7 @@ class CsvText {
 /// The belief under the true walls, with both trajectories, in the plan's own frame.
 template <class Map>
 void draw_overview(const std::filesystem::path& file, const Map& map, const incognita::FloorPlan& plan,
-                   const incognita::Pose2& T_world_start, const MissionRecord& record) {
+                   const incognita::AllowedArea& area, const incognita::Pose2& T_world_start, const MissionRecord& record) {
   using incognita::FloorCell;
   using examples::Color;
   constexpr Color wall{0.85, 0.25, 0.1, 0.55};
@@ -110,6 +114,7 @@ void draw_overview(const std::filesystem::path& file, const Map& map, const inco
   constexpr Color estimated_path{0.1, 0.3, 0.85};
   constexpr Color start{0.75, 0.1, 0.6};
   constexpr Color frontier{1.0, 0.6, 0.0};
+  constexpr Color closed{0.9, 0.1, 0.5};
 
   const auto& box = plan.box();
   const double resolution_m = plan.resolution_m();
@@ -130,16 +135,26 @@ void draw_overview(const std::filesystem::path& file, const Map& map, const inco
   for (const auto& cells_m : record.last_frontiers) {
     for (const Eigen::Vector2d& cell_m : cells_m) drawing.disc(T_world_start * cell_m, map.resolution_m(), frontier);
   }
+  const auto outline = [&](incognita::Polygon corners_m) {
+    if (corners_m.empty()) return;
+    corners_m.push_back(corners_m.front());
+    drawing.polyline(corners_m, closed, 3.0);
+  };
+  outline(area.bounds);
+  for (const incognita::Polygon& polygon : area.no_go) outline(polygon);
   drawing.marker(T_world_start.position(), start);
   drawing.text(T_world_start.position(), "start", start);
   using examples::Swatch;
-  drawing.legend({{"believed occupied", {0.0, 0.0, 0.0}, Swatch::area},
-                  {"free", {1.0, 1.0, 1.0}, Swatch::area},
-                  {"never seen", examples::never_seen, Swatch::area},
-                  {"true wall", wall, Swatch::area},
-                  {"true path", true_path, Swatch::line},
-                  {"estimated path", estimated_path, Swatch::line},
-                  {"last frontiers", frontier, Swatch::dot}});
+  std::vector<examples::LegendEntry> legend{
+      {"believed occupied", {0.0, 0.0, 0.0}, Swatch::area},
+      {"free", {1.0, 1.0, 1.0}, Swatch::area},
+      {"never seen", examples::never_seen, Swatch::area},
+      {"true wall", wall, Swatch::area},
+      {"true path", true_path, Swatch::line},
+      {"estimated path", estimated_path, Swatch::line},
+      {"last frontiers", frontier, Swatch::dot}};
+  if (!area.is_everywhere()) legend.push_back({"bounds and no-go", closed, Swatch::line});
+  drawing.legend(legend);
   drawing.write_png(file);
 }
 

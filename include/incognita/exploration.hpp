@@ -8,7 +8,9 @@
 
 #include "incognita/exploration/action_aware.hpp"
 #include "incognita/exploration/candidate.hpp"
+#include "incognita/exploration/candidate_search.hpp"
 #include "incognita/exploration/explorer.hpp"
+#include "incognita/exploration/explorer_params.hpp"
 #include "incognita/exploration/frontier_information.hpp"
 #include "incognita/exploration/frontier_view.hpp"
 #include "incognita/exploration/information_gain.hpp"

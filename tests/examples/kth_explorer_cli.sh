@@ -24,6 +24,8 @@ cat >two_points.xml <<'XML'
   </space>
 </floor>
 XML
+printf '# a line\n0,0 1,1\n' >two_corners.txt
+printf '20,11 22,11 22,13 20,13\n' >no_go.txt
 cd ../run
 
 refused "a truncated PNG" truncated.png --map ../inputs/truncated.yaml
@@ -34,6 +36,15 @@ refused "a negative alpha" alpha --alpha -1
 refused "a strategy that is not there" strategy --strategy sideways
 refused "an information that is not there" information --information gossip
 refused "a navigation that is not there" navigation --navigation stars
+refused "a filter that is not there" filter --filter kalman
+refused "a radius of nothing" radius --radius 0
+refused "a radius that fits nowhere" room --radius 2 --bounds 1,1,3,3
+refused "bounds that are no box" bounds --bounds 1,2,3
+refused "bounds the wrong way around" "X0 < X1" --bounds 5,5,1,9
+refused "bounds without a number" bounds --bounds ""
+refused "no-go areas that are not there" absent.txt --no-go ../inputs/absent.txt
+refused "a no-go area of two corners" "line 2 has 2 corners" --no-go ../inputs/two_corners.txt
+refused "a start outside of the bounds" start --start 30,14 --bounds 1,1,10,10
 refused "an alpha that is no number" alpha --alpha nan
 refused "a start inside a wall" start --start 0.1,0.1
 refused "a start that is no point" --start --start 3
@@ -57,7 +68,7 @@ rm -r blocked
 
 help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
 [ -s stderr ] && fail "--help: something on stderr"
-for option in help map cells entropy alpha filter compass loops duration seed start resolution threads output quiet; do
+for option in help map cells entropy alpha filter compass loops strategy information navigation radius bounds no-go return duration seed start resolution threads output quiet; do
   grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
 done
 
@@ -99,6 +110,15 @@ done
 grep -q '"duration_s": 20.0,' one/metrics.json || fail "duration_s is not 20: $(grep duration_s one/metrics.json)"
 grep -q '"stop_reason": "out_of_time"' one/metrics.json || fail "the stop reason: $(grep stop_reason one/metrics.json)"
 grep -q "$work" one/metrics.json && fail "a path is in metrics.json"
+
+# A part of the floor, with a pose that is known, and back.
+run part --threads 1 --filter none --bounds 17,8,40,16 --no-go ../inputs/no_go.txt --radius 0.25 --return
+grep -q '"returned": true' part/metrics.json || fail "the robot has not returned: $(grep returned part/metrics.json)"
+grep -q '"nees_mean": null' part/metrics.json || fail "a known pose has a NEES: $(grep nees part/metrics.json)"
+grep -q '"returned": null' one/metrics.json || fail "returned though not asked to: $(grep returned one/metrics.json)"
+# 20 s of exploration, and the way back.
+awk '$1 > 20.5 { later = 1 } END { exit !later }' part/trajectory_true.tum || fail "the way back is not in the trajectory"
+awk -F, 'NR > 1 && $1 > 20.0 { exit 1 }' part/progress.csv || fail "the way back is in the progress"
 
 times=$(tail -n +2 one/progress.csv | cut -d, -f1 | tr '\n' ' ')
 [ "$times" = "$(seq -s ' ' 1 20) " ] || fail "progress.csv has not a line each second: $times"

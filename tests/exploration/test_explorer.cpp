@@ -254,6 +254,185 @@ TEST_CASE("while the map stays the same no goal is taken up twice") {
   CHECK(kept_until_s > decided_s + 20.0);  // only because the goal was not reached in time
 }
 
+TEST_CASE("a robot that drives and learns nothing keeps its goal until it is there, also when it plans online by straight lines") {
+  ExplorerParams params = quick_params();
+  params.strategy = Strategy::online;
+  params.information = FrontierInformation::size;
+  params.navigation = GENERATE(NavigationCost::uniform, NavigationCost::euclidean, NavigationCost::geodesic);
+  params.position_sigma_max_m = 100.0;
+  Simulator simulator = test::office_simulator(0.9, 9);
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 1.9);
+  REQUIRE(explorer.goal());
+  const Scan<2> nothing = blind_scan();
+  std::vector<Eigen::Vector2d> frontiers_m;
+  std::size_t arrivals = 0;
+  Twist2 command;
+  while (!explorer.stopped() && explorer.time_s() < 600.0) {
+    explorer.move(simulator.step(command), 0.02);
+    if (!simulator.scan_is_new()) continue;
+    explorer.observe(nothing);
+    if (explorer.decide() && explorer.goal()) {
+      const Eigen::Vector2d frontier_m = explorer.decision().chosen()->frontier_m;
+      CHECK(std::find(frontiers_m.begin(), frontiers_m.end(), frontier_m) == frontiers_m.end());
+      frontiers_m.push_back(frontier_m);
+      ++arrivals;
+    }
+    command = explorer.command(nothing);
+  }
+  CAPTURE(explorer.time_s());
+  REQUIRE(explorer.stopped());
+  CHECK(*explorer.stopped() == StopReason::nothing_informative);
+  CHECK(arrivals > 1);
+}
+
+TEST_CASE("a pause stands still and decides nothing, and start goes on") {
+  Simulator simulator = test::office_simulator(0.9, 10);
+  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  explorer.pause();
+  CHECK(explorer.is_paused());
+  test::run_mission(explorer, simulator, 5.0);
+  CHECK_FALSE(explorer.goal());
+  CHECK(simulator.distance_m() == 0.0);
+  CHECK(explorer.map().update_count() > 0);
+  CHECK_FALSE(explorer.frontiers().empty());
+
+  explorer.start();
+  CHECK_FALSE(explorer.is_paused());
+  test::run_mission(explorer, simulator, 7.5);
+  REQUIRE(explorer.goal());
+  const double driven_m = simulator.distance_m();
+  CHECK(driven_m > 0.3);
+  const Eigen::Vector2d goal_m = *explorer.goal();
+
+  explorer.pause();
+  explorer.pause();
+  test::run_mission(explorer, simulator, 200.0);  // longer than any patience
+  CHECK(simulator.distance_m() == driven_m);
+  CHECK(explorer.goal() == goal_m);
+  CHECK_FALSE(explorer.stopped());
+  explorer.start();
+  test::run_mission(explorer, simulator, 400.0);
+  REQUIRE(explorer.stopped());
+  CHECK(explored_fraction(explorer, simulator) > 0.95);
+  CHECK(simulator.collisions() == 0);
+}
+
+TEST_CASE("an exploration is stopped, and started again where it was") {
+  Simulator simulator = test::office_simulator(0.9, 11);
+  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 4.0);
+  REQUIRE(explorer.goal());
+  explorer.pause();
+  explorer.stop();
+  CHECK(explorer.stopped() == StopReason::stopped);
+  CHECK_FALSE(explorer.is_paused());
+  CHECK_FALSE(explorer.goal());
+  CHECK_FALSE(explorer.decide());
+  CHECK(explorer.command(simulator.scan()).speed_m_per_s == 0.0);
+  explorer.stop();
+  explorer.start();
+  CHECK_FALSE(explorer.stopped());
+  test::run_mission(explorer, simulator, 200.0);
+  REQUIRE(explorer.stopped());
+  const StopReason reason = *explorer.stopped();
+  CHECK(reason != StopReason::stopped);
+  CHECK(explored_fraction(explorer, simulator) > 0.95);
+  explorer.stop();
+  CHECK(explorer.stopped() == reason);
+}
+
+TEST_CASE("a robot returns to its start on request, from the way or from the end") {
+  const bool from_the_end = GENERATE(false, true);
+  Simulator simulator = test::office_simulator(0.9, 12);
+  ExplorerParams params = quick_params();
+  if (!from_the_end) params.duration_max_s = 12.0;  // does not count on the way back
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 200.0);
+  REQUIRE(explorer.stopped());
+  const double away_m = simulator.T_start_robot().position().norm();
+  CAPTURE(from_the_end, away_m);
+  REQUIRE(away_m > 1.0);
+  explorer.return_to_start();
+  CHECK(explorer.is_returning());
+  CHECK_FALSE(explorer.stopped());
+  const double begun_m = simulator.distance_m();
+  test::run_mission(explorer, simulator, 400.0);
+  CHECK(explorer.stopped() == StopReason::returned);
+  CHECK(simulator.T_start_robot().position().norm() < 0.3);
+  CHECK(simulator.distance_m() - begun_m < 2.0 * away_m + 2.0);
+  CHECK(simulator.collisions() == 0);
+
+  // It is there already.
+  explorer.return_to_start();
+  test::run_mission(explorer, simulator, simulator.time_s() + 10.0);
+  CHECK(explorer.stopped() == StopReason::returned);
+}
+
+TEST_CASE("a robot that cannot get back says so, and may explore again") {
+  Simulator simulator = test::office_simulator(0.9, 13);
+  ExplorerParams params = quick_params();
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  test::run_mission(explorer, simulator, 30.0);
+  explorer.return_to_start();
+  const Scan<2> nothing = blind_scan();
+  double began_s = explorer.time_s();
+  while (!explorer.stopped() && explorer.time_s() < began_s + 100.0) {
+    explorer.move(Pose2{}, 0.1);  // its wheels are blocked
+    explorer.observe(simulator.scan());
+    explorer.decide();
+    (void)explorer.command(nothing);
+  }
+  CHECK(explorer.stopped() == StopReason::nothing_reachable);
+  explorer.start();
+  CHECK_FALSE(explorer.is_returning());
+  CHECK_FALSE(explorer.stopped());
+}
+
+TEST_CASE("no path, no goal and no frontier leaves the allowed area, and the exploration of it is complete") {
+  // The left room alone; the whole with a bar across the left room but for a gap; a polygon in front of the door.
+  const Polygon left_room{{0.0, 0.0}, {3.6, 0.0}, {3.6, 6.0}, {0.0, 6.0}};
+  const Polygon bar{{0.0, 3.2}, {2.6, 3.0}, {2.6, 3.4}, {0.0, 3.5}};
+  const Polygon before_the_door{{3.5, 2.6}, {4.4, 2.6}, {4.4, 4.4}, {3.5, 4.4}};
+  const int which = GENERATE(0, 1, 2);
+  AllowedArea area;
+  if (which == 0) area.bounds = left_room;
+  if (which == 1) area.no_go = {bar};
+  if (which == 2) area.no_go = {before_the_door};
+  Simulator simulator = test::office_simulator(0.9, 14);
+  ExplorerParams params = quick_params();
+  params.area = area.transformed(simulator.T_start_world());
+  OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
+  Twist2 command;
+  double clearance_min_m = 1.0;
+  while (!explorer.stopped() && simulator.time_s() < 200.0) {
+    explorer.move(simulator.step(command), 0.02);
+    clearance_min_m = std::min(clearance_min_m, area.clearance_m(simulator.T_world_robot().position()));
+    if (!simulator.scan_is_new()) continue;
+    explorer.observe(simulator.scan());
+    if (explorer.decide() && explorer.goal()) {
+      for (const Candidate& candidate : explorer.decision().candidates) {
+        for (double s_m = 0.0; s_m < candidate.path.length_m(); s_m += 0.02) {
+          REQUIRE(params.area.clearance_m(candidate.path.point_at(s_m)) > 0.1);
+        }
+      }
+      for (const Frontier<2>& frontier : explorer.frontiers()) {
+        for (const Index<2>& cell : frontier.cells) {
+          REQUIRE(params.area.clearance_m(explorer.map().lattice().center_m(cell)) >= 0.07);
+        }
+      }
+    }
+    command = explorer.command(simulator.scan());
+  }
+  REQUIRE(explorer.stopped());
+  CAPTURE(which, to_string(*explorer.stopped()), simulator.distance_m());
+  // Of the right room the robot sees through the door what it cannot go to.
+  CHECK(*explorer.stopped() == (which == 2 ? StopReason::nothing_informative : StopReason::complete));
+  CHECK(clearance_min_m > 0.15);
+  CHECK(simulator.collisions() == 0);
+  if (which == 1) CHECK(explored_fraction(explorer, simulator) > 0.95);
+}
+
 TEST_CASE("behavioral entropy with alpha 1 decides as Shannon's") {
   const auto run = [](const Measure& measure) {
     Simulator simulator = test::office_simulator(0.9, 7);
@@ -316,6 +495,7 @@ TEST_CASE("explorer parameters out of bounds are refused by name and value") {
   refused([](auto& p) { p.threads = -2; }, own, "threads", "-2");
   refused([](auto& p) { p.gain.beams = -7; }, "GainParams", "beams", "-7");
   refused([](auto& p) { p.set_aside.radius_m = -0.5; }, "SetAsideParams", "radius_m", "-0.5");
+  refused([](auto& p) { p.area.bounds = {{0.0, 0.0}, {1.0, 1.0}}; }, "AllowedArea", "bounds", "2");
   refused([](auto& p) { p.thresholds.free_below = 0.5F; }, "OccupancyThresholds", "free_below", "0.5");
   refused([](auto& p) { p.frontier.length_max_m = -4.0; }, "FrontierParams", "length_max_m", "-4");
   refused([](auto& p) { p.travel.robot_radius_m = -0.2; }, "TravelParams", "robot_radius_m", "-0.2");

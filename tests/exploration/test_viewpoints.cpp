@@ -179,6 +179,39 @@ TEST_CASE("The best viewpoint is that of the whole set with the least sum of dis
   CHECK(none > 5);
 }
 
+TEST_CASE("The best viewpoint from which enough is seen is the nearest of those that see as much", "[exploration]") {
+  ViewpointSearch search;
+  Random random(6);
+  int moved = 0;
+  int none = 0;
+  for (int draw = 0; draw < 25; ++draw) {
+    const Scene scene = random_scene(random);
+    const CellBits free = free_cells(scene.belief);
+    const ReliableVisibility visibility(scene.belief, free, random_visibility(random));
+    const std::size_t seen_min = 2 + random.index(6);
+    for (const Frontier<2>& region : scene.regions) {
+      const auto best = search.best(region.cells, in(scene.plan), visibility, seen_min);
+      double least = std::numeric_limits<double>::infinity();
+      for (const Index<2>& at : every_viewpoint(scene, region.cells, visibility)) {
+        if (seen_of(region.cells, at, visibility).size() < seen_min) continue;
+        least = std::min(least, summed_distance_cells(at, region.cells));
+      }
+      CAPTURE(draw, region.representative, seen_min);
+      REQUIRE(best.has_value() == std::isfinite(least));
+      const auto any = search.best(region.cells, in(scene.plan), visibility);
+      if (!best) {
+        none += any ? 1 : 0;
+        continue;
+      }
+      REQUIRE(seen_of(region.cells, *best, visibility).size() >= seen_min);
+      REQUIRE(summed_distance_cells(*best, region.cells) == Approx(least).epsilon(1e-12));
+      moved += *any == *best ? 0 : 1;
+    }
+  }
+  CHECK(moved > 5);
+  CHECK(none > 5);
+}
+
 TEST_CASE("Less is seen with a larger tolerance, and nothing further away than what is left of the range", "[exploration]") {
   ViewpointSearch search;
   Random random(4);

@@ -81,7 +81,7 @@ template <class Information>
   };
   const auto is_reached = [&](const Index<2>& cell) { return field.reaches(cell); };
   ViewpointSearch search;
-  plan.views = find_views(plan.frontiers, is_frontier, is_reached, visibility, search);
+  plan.views = find_views(plan.frontiers, is_frontier, is_reached, visibility, params.information_min_m2, search);
   if (plan.views.empty()) {
     plan.ended = StopReason::nothing_reachable;
     return plan;

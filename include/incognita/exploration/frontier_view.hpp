@@ -54,11 +54,7 @@ enum class NavigationCost {
 /// than that.
 [[nodiscard]] inline bool is_informative(const Index<2>& from, const std::vector<Index<2>>& frontier,
                                          const ReliableVisibility& visibility, double information_min_m2) {
-  std::size_t missing = least_cells_above(information_min_m2, visibility.occupancy().resolution_m());
-  for (const Index<2>& cell : frontier) {
-    if (visibility.sees(from, cell) && --missing == 0) return true;
-  }
-  return false;
+  return sees_at_least(least_cells_above(information_min_m2, visibility.occupancy().resolution_m()), visibility, from, frontier);
 }
 
 /// A frontier that can be seen from somewhere that can be reached.
@@ -70,19 +66,29 @@ struct FrontierView {
 };
 
 /// The views of those frontiers that are seen from a cell that is_eligible(index) holds for, in the order of the frontiers.
-/// is_frontier(index) says which cells are frontiers. (26) may choose those whose actionable information is large enough; when none
-/// is, the exploration is complete, (28).
+/// is_frontier(index) says which cells are frontiers. (26) may choose those whose actionable information is above
+/// information_min_m2; when none is, the exploration is complete, (28). Where less is seen from the viewpoint of (21), beside a
+/// frontier that it looks along, the best of those takes its place from where enough of the frontier is seen, if there is one:
+/// the paper would give the frontier up.
 template <class IsFrontier, class IsEligible>
 [[nodiscard]] std::vector<FrontierView> find_views(const std::vector<Frontier<2>>& frontiers, IsFrontier&& is_frontier,
                                                    IsEligible&& is_eligible, const ReliableVisibility& visibility,
-                                                   ViewpointSearch& search) {
-  const double cell_m2 = visibility.occupancy().resolution_m() * visibility.occupancy().resolution_m();
+                                                   double information_min_m2, ViewpointSearch& search) {
+  const double resolution_m = visibility.occupancy().resolution_m();
+  const std::size_t least_cells = least_cells_above(information_min_m2, resolution_m);
   std::vector<FrontierView> views;
   for (std::size_t region = 0; region < frontiers.size(); ++region) {
-    const std::optional<Index<2>> viewpoint = search.best(frontiers[region].cells, is_eligible, visibility);
+    const std::vector<Index<2>>& cells = frontiers[region].cells;
+    std::optional<Index<2>> viewpoint = search.best(cells, is_eligible, visibility);
     if (!viewpoint) continue;
-    const std::size_t seen = search.visible(*viewpoint, is_frontier, visibility).size();
-    views.push_back({region, *viewpoint, seen, cell_m2 * static_cast<double>(seen)});
+    std::size_t seen = search.visible(*viewpoint, is_frontier, visibility).size();
+    if (seen < least_cells) {
+      if (const auto better = search.best(cells, is_eligible, visibility, least_cells)) {
+        viewpoint = better;
+        seen = search.visible(*viewpoint, is_frontier, visibility).size();
+      }
+    }
+    views.push_back({region, *viewpoint, seen, resolution_m * resolution_m * static_cast<double>(seen)});
   }
   return views;
 }

@@ -8,9 +8,12 @@ namespace incognita {
 enum class StopReason {
   complete,             ///< no frontier is left
   nothing_informative,  ///< frontiers are left, but going there would tell nothing new, or was tried and given up
-  nothing_reachable,    ///< the robot's body cannot get to where any of the frontiers that are left is seen, or stands where nothing is known to be free
+  nothing_reachable,    ///< the robot's body cannot get to where any of the frontiers that are left is seen, or, returning,
+                        ///< back to the start; or stands where nothing is known to be free
   lost,                 ///< the pose is more uncertain than the bound given, or its scans have contradicted the map for too long
-  out_of_time
+  out_of_time,
+  stopped,              ///< on request
+  returned              ///< to the start, on request
 };
 
 /// The name of the enumerator.
@@ -21,6 +24,8 @@ enum class StopReason {
     case StopReason::nothing_reachable: return "nothing_reachable";
     case StopReason::lost: return "lost";
     case StopReason::out_of_time: return "out_of_time";
+    case StopReason::stopped: return "stopped";
+    case StopReason::returned: return "returned";
   }
   return "unknown";
 }

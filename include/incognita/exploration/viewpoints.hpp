@@ -26,11 +26,11 @@ namespace incognita {
   return sum;
 }
 
-/// Whether a cell of a frontier is reliably seen from a place.
-[[nodiscard]] inline bool sees_any(const ReliableVisibility& visibility, const Index<2>& from,
-                                   const std::vector<Index<2>>& frontier) {
+/// Whether so many cells of a frontier, at least 1, are reliably seen from a place. Asks no further than that.
+[[nodiscard]] inline bool sees_at_least(std::size_t count, const ReliableVisibility& visibility, const Index<2>& from,
+                                        const std::vector<Index<2>>& frontier) {
   for (const Index<2>& cell : frontier) {
-    if (visibility.sees(from, cell)) return true;
+    if (visibility.sees(from, cell) && --count == 0) return true;
   }
   return false;
 }
@@ -45,19 +45,21 @@ class ViewpointSearch {
                                           const ReliableVisibility& visibility) {
     std::vector<Index<2>> viewpoints;
     for_each_in_sight(frontier, visibility, [&](const Index<2>& at) {
-      if (is_eligible(at) && sees_any(visibility, at, frontier)) viewpoints.push_back(at);
+      if (is_eligible(at) && sees_at_least(1, visibility, at, frontier)) viewpoints.push_back(at);
     });
     std::sort(viewpoints.begin(), viewpoints.end(), is_stored_before<2>);
     return viewpoints;
   }
 
   /// view(FR_i), (21): of the viewpoint set's cells the one with the least sum of distances to the frontier's cells, the first in
-  /// storage order of equals; none when the set is empty.
+  /// storage order of equals; none when the set is empty. With seen_min > 1 only of those from which so many of the frontier's
+  /// cells are seen.
   template <class IsEligible>
   [[nodiscard]] std::optional<Index<2>> best(const std::vector<Index<2>>& frontier, IsEligible&& is_eligible,
-                                             const ReliableVisibility& visibility) {
+                                             const ReliableVisibility& visibility, std::size_t seen_min = 1) {
     Best best;
-    if (frontier.empty() || search_around(frontier, is_eligible, visibility, best)) return best.cell;
+    const auto is_viewpoint = [&](const Index<2>& at) { return sees_at_least(seen_min, visibility, at, frontier); };
+    if (frontier.size() < seen_min || search_around(frontier, is_eligible, is_viewpoint, visibility, best)) return best.cell;
     // Most cells around do not see the frontier: ask which ones may.
     ranked_.clear();
     for_each_in_sight(frontier, visibility, [&](const Index<2>& at) {
@@ -68,8 +70,8 @@ class ViewpointSearch {
     std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
       return a.sum != b.sum ? a.sum < b.sum : is_stored_before<2>(a.cell, b.cell);
     });
-    const auto found = std::find_if(ranked_.begin(), ranked_.end(),
-                                    [&](const Ranked& ranked) { return sees_any(visibility, ranked.cell, frontier); });
+    const auto found =
+        std::find_if(ranked_.begin(), ranked_.end(), [&](const Ranked& ranked) { return is_viewpoint(ranked.cell); });
     return found == ranked_.end() ? best.cell : std::optional<Index<2>>(found->cell);
   }
 
@@ -117,9 +119,9 @@ class ViewpointSearch {
 
   /// Outwards from the frontier's centroid, from where the sum of distances is at least the cells times the distance from there, so
   /// that far places are not looked at once a near one is found. False when that takes too long.
-  template <class IsEligible>
+  template <class IsEligible, class IsViewpoint>
   [[nodiscard]] static bool search_around(const std::vector<Index<2>>& frontier, IsEligible&& is_eligible,
-                                          const ReliableVisibility& visibility, Best& best) {
+                                          IsViewpoint&& is_viewpoint, const ReliableVisibility& visibility, Best& best) {
     const auto count = static_cast<double>(frontier.size());
     Point<2> centroid(0.0, 0.0);
     for (const Index<2>& cell : frontier) centroid = sum(centroid, Point<2>(cell[0] / count, cell[1] / count));
@@ -140,7 +142,7 @@ class ViewpointSearch {
       if (!is_eligible(at)) return;
       const double sum = summed_distance_cells(at, frontier);
       if (sum > best.sum || (sum == best.sum && !is_stored_before<2>(at, *best.cell))) return;
-      if (sees_any(visibility, at, frontier)) {
+      if (is_viewpoint(at)) {
         best = {at, sum};
       } else {
         misses += frontier.size();

@@ -1,0 +1,143 @@
+/// Ways from where a robot is, and what of all that can be seen from their ends is most worth going to.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "incognita/exploration/candidate.hpp"
+#include "incognita/exploration/explorer_params.hpp"
+#include "incognita/exploration/frontier_information.hpp"
+#include "incognita/exploration/frontier_view.hpp"
+#include "incognita/grid/distance_transform.hpp"
+#include "incognita/planning/closed_cells.hpp"
+#include "incognita/planning/path.hpp"
+
+namespace incognita {
+
+/// The search of an Explorer for candidates, with the storage that is kept from one to the next. Its parameters are the
+/// Explorer's. Not thread safe; uses threads of its own.
+template <CellPolicy Cell>
+class CandidateSearch {
+ public:
+  explicit CandidateSearch(const Lattice<2>& lattice)
+      : clearance_m_(lattice, {}, std::numeric_limits<float>::infinity()), ways_(lattice) {}
+
+  /// Makes ways() those from a place. Where the robot has been, on the cells of its trail, its body fits, however tight the belief
+  /// draws the place: no door closes behind it. O(cells).
+  void search_ways(const OccupancyGrid<2>& occupancy, const std::vector<Index<2>>& trail, const ClosedCells<2>& closed,
+                   const Eigen::Vector2d& from_m, const TravelParams& params) {
+    distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; }, clearance_m_);
+    for (const Index<2>& cell : trail) {
+      if (!clearance_m_.contains(cell)) continue;
+      float& clearance_m = clearance_m_[clearance_m_.offset_of(cell)];
+      clearance_m = std::max(clearance_m, static_cast<float>(params.clearance_hard_m()));
+    }
+    if (!closed.none()) {
+      for (Offset cell = 0; cell < static_cast<Offset>(clearance_m_.size()); ++cell) {
+        clearance_m_[cell] = std::min(clearance_m_[cell], closed.clearance_m(clearance_m_.index_at(cell)));
+      }
+    }
+    ways_.restart(occupancy, clearance_m_, from_m, params);
+  }
+
+  [[nodiscard]] const TravelCostField& ways() const { return ways_; }
+
+  /// The way to a cell that is reached, with few corners.
+  [[nodiscard]] Polyline path_to(const Index<2>& cell) const { return Polyline(shorten_path(ways_, find_path(ways_, cell))); }
+
+  /// The candidates that views of frontiers make, the highest utility first, at most candidates_max unless none of these is worth
+  /// going to. By big those that gain too little are left out.
+  template <class Filter>
+  [[nodiscard]] std::vector<Candidate> candidates(std::vector<FrontierView> views, const std::vector<Frontier<2>>& frontiers,
+                                                  const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
+                                                  const ExplorerParams& params) {
+    std::vector<Candidate> candidates = params.information == FrontierInformation::big
+                                            ? first_gainful(views, frontiers, map, entropy, filter, params)
+                                            : most_useful(views, frontiers, map, entropy, params);
+    sort_by_utility(candidates);
+    return candidates;
+  }
+
+ private:
+  /// Without its path.
+  [[nodiscard]] Candidate candidate_for(const FrontierView& view, const Frontier<2>& frontier, const Map<Cell, 2>& map,
+                                        const EntropyTable& entropy, const ExplorerParams& params) const {
+    Candidate candidate;
+    candidate.frontier_m = map.lattice().center_m(frontier.representative);
+    candidate.frontier = frontier.cells;
+    candidate.viewpoint = view.viewpoint;
+    candidate.navigation_cost = navigation_cost(params.navigation, ways_, view.viewpoint);
+    switch (params.information) {
+      case FrontierInformation::uniform: candidate.information = 1.0; break;
+      case FrontierInformation::size: candidate.information = frontier_size_m2(frontier.cells, map.resolution_m()); break;
+      case FrontierInformation::entropy: candidate.information = frontier_entropy_nats_m2(frontier.cells, map, entropy); break;
+      case FrontierInformation::big: break;  // told by its path
+    }
+    rate(candidate, params);
+    return candidate;
+  }
+
+  static void rate(Candidate& candidate, const ExplorerParams& params) {
+    const double offset_m = params.navigation == NavigationCost::uniform ? 0.0 : params.travel_offset_m;
+    candidate.utility = information_per_cost(candidate.information, candidate.navigation_cost + offset_m);
+  }
+
+  static void sort_by_utility(std::vector<Candidate>& candidates) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.utility > b.utility; });
+  }
+
+  /// The candidates_max of the most information per cost.
+  [[nodiscard]] std::vector<Candidate> most_useful(const std::vector<FrontierView>& views,
+                                                   const std::vector<Frontier<2>>& frontiers, const Map<Cell, 2>& map,
+                                                   const EntropyTable& entropy, const ExplorerParams& params) const {
+    std::vector<Candidate> candidates;
+    for (const FrontierView& view : views) {
+      candidates.push_back(candidate_for(view, frontiers[view.region], map, entropy, params));
+    }
+    sort_by_utility(candidates);
+    if (candidates.size() > static_cast<std::size_t>(params.candidates_max)) {
+      candidates.erase(candidates.begin() + params.candidates_max, candidates.end());
+    }
+    for (Candidate& candidate : candidates) candidate.path = path_to(candidate.viewpoint);
+    return candidates;
+  }
+
+  /// Those that gain enough of the candidates_max that are cheapest to reach; when there are none, of the next, and so on.
+  template <class Filter>
+  [[nodiscard]] std::vector<Candidate> first_gainful(std::vector<FrontierView>& views, const std::vector<Frontier<2>>& frontiers,
+                                                     const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
+                                                     const ExplorerParams& params) {
+    std::stable_sort(views.begin(), views.end(), [&](const FrontierView& a, const FrontierView& b) {
+      return ways_.cost_m(a.viewpoint) < ways_.cost_m(b.viewpoint);
+    });
+    const double gain_min_nats = params.gain_min_cells * entropy(0.0F);
+    std::vector<Candidate> gainful;
+    std::size_t next = 0;
+    while (gainful.empty() && next < views.size()) {
+      const std::size_t end = std::min(views.size(), next + static_cast<std::size_t>(params.candidates_max));
+      for (; next < end; ++next) {
+        gainful.push_back(candidate_for(views[next], frontiers[views[next].region], map, entropy, params));
+        gainful.back().path = path_to(views[next].viewpoint);
+      }
+      evaluate_candidates(map, entropy, filter, gainful, params.gain, params.threads, scratch_);
+      std::erase_if(gainful, [&](const Candidate& candidate) { return candidate.gain_nats < gain_min_nats; });
+    }
+    for (Candidate& candidate : gainful) {
+      candidate.information = candidate.gain_nats;
+      rate(candidate, params);
+    }
+    return gainful;
+  }
+
+  Grid<float, 2> clearance_m_;
+  TravelCostField ways_;
+  CandidateScratch<Cell> scratch_;
+};
+
+}  // namespace incognita
