@@ -78,8 +78,9 @@ struct Options {
                  "plan anew at a viewpoint, as soon as it is no longer informative, or every second if the map has changed")
       ->check(CLI::IsMember({"persistent", "last-mile", "online"}))
       ->capture_default_str();
-  app.add_option("--information", options.information, "what a frontier is worth: 1 (with geodesic, the nearest is gone to), its size, its entropy, or the "
-                                                       "information gain of the path to it")
+  app.add_option("--information", options.information,
+                 "what a frontier is worth: 1 (with geodesic, the nearest is gone to), its size, its entropy, or the information\n"
+                 "gain of the path to it")
       ->check(CLI::IsMember({"uniform", "size", "entropy", "big"}))
       ->capture_default_str();
   app.add_option("--navigation", options.navigation, "what that is divided by: nothing, the straight line, or the cost of the way")
@@ -101,7 +102,8 @@ struct Options {
   app.add_option("--bounds", bounds, "box in the map file's frame, in metres, that the robot stays in and explores")
       ->type_name("X0,Y0,X1,Y1")
       ->check(examples::refuse_empty);
-  app.add_option("--no-go", options.no_go_file, "polygons in the map file's frame that it keeps out of: a line each, as 0,0 4,0 4,2.5")
+  app.add_option("--no-go", options.no_go_file,
+                 "polygons in the map file's frame that it keeps out of: a line each, as 0,0 4,0 4,2.5")
       ->type_name("FILE")
       ->check(examples::refuse_empty);
   app.add_flag("--return", options.returns, "drive back to the start in the end");

@@ -44,15 +44,17 @@ OccupancyGrid<2> crossed_corridors() {
 struct Swing {
   int switches = 0;
   bool arrived = false;
+  Eigen::Vector2d at_m{0.0, 0.0};  // in the end
 };
 
 /// A robot that drives a cell along the plan, plans anew, and so on, in a belief that stays as it is.
 Swing plan_online(const OccupancyGrid<2>& belief, NavigationCost navigation, bool keeps_goal_until_change) {
   ActionAwareParams params = small_body();
   params.navigation = navigation;
-  Eigen::Vector2d at_m = belief.lattice().center_m({54, 6});
   std::optional<Index<2>> goal;
   Swing swing;
+  Eigen::Vector2d& at_m = swing.at_m;
+  at_m = belief.lattice().center_m({54, 6});
   for (int step = 0; step < 2000 && !swing.arrived; ++step) {
     const ExplorationPlan plan = plan_exploration(belief, at_m, params, region_size);
     REQUIRE(plan.chosen);
@@ -215,6 +217,16 @@ TEST_CASE("Online planning by straight lines swings between two goals for ever; 
   CHECK(guarded.arrived);
   const Swing geodesic = plan_online(belief, NavigationCost::geodesic, false);
   CHECK(geodesic.arrived);
+
+  // By a uniform cost the goal does not depend on where the robot is: it does not swing, but would stand at its goal for ever.
+  const Swing uniform = plan_online(belief, NavigationCost::uniform, false);
+  CHECK(uniform.arrived);
+  CHECK(uniform.switches == 0);
+  ActionAwareParams params = small_body();
+  params.navigation = NavigationCost::uniform;
+  const ExplorationPlan stays = plan_exploration(belief, uniform.at_m, params, region_size);
+  REQUIRE(stays.chosen);
+  CHECK(is_near(belief.lattice().center_m(stays.chosen->viewpoint), uniform.at_m, 0.05));
 }
 
 TEST_CASE("What a frontier promises is its number, its size, its entropy, or that of its neighbourhood", "[exploration]") {

@@ -108,8 +108,8 @@ class Explorer {
     return choose();
   }
 
-  /// Goes on with what a pause has interrupted; else explores, anew where it had ended or was on its way back: goals that were given
-  /// up are then tried again.
+  /// Goes on with what a pause has interrupted; else explores, anew where it had ended or was on its way back: goals that were
+  /// given up are then tried again.
   void start() {
     if (is_paused_) {
       is_paused_ = false;

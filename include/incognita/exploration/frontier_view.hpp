@@ -93,8 +93,8 @@ template <class IsFrontier, class IsEligible>
   return views;
 }
 
-/// i* of (26), of views that are informative enough: the one with the most information per cost, the first of equals; null when there are none. information(view) is
-/// a measure of Table II of its frontier, or any other.
+/// i* of (26), of views that are informative enough: the one with the most information per cost, the first of equals; null when
+/// there are none. information(view) is a measure of Table II of its frontier, or any other.
 template <class Information>
 [[nodiscard]] const FrontierView* choose_view(const std::vector<FrontierView>& views, const TravelCostField& field,
                                               NavigationCost navigation, Information&& information) {
