@@ -100,6 +100,10 @@ def bars(results):
     def peer(of, to, what):
         return [(place, results.ratio(NATIVE, "peers", f"{of}/{place}", f"{to}/{place}", what)) for place in places]
 
+    def milliseconds(program, name):
+        value = results.median(NATIVE, program, name)
+        return [(name, value * 1e3 if value else None)]
+
     def of_entropy(what, scale):
         """The worst measure of each kind of cells and size of map."""
         worst = {}
@@ -137,6 +141,10 @@ def bars(results):
         ("Occupancy, frontier and information after a scan, on 4000 x 4000 cells against 800 x 800", "at most", 1.2,
          [("follow", results.ratio(NATIVE, "growth", "area/follow/4000x4000", "area/follow/800x800")),
           ("map and obstacle layer", results.ratio(NATIVE, "growth", "area/update/4000x4000", "area/update/800x800"))]),
+        ("Planning over 132 x 44 m of cells of 0.1 m, ms: erosion, distances and one field of travel costs", "at most", 15.0,
+         milliseconds("action_aware", "spaces")),
+        ("Planning over 132 x 44 m of cells of 0.1 m, ms: viewpoints of all frontiers and what they see", "at most", 50.0,
+         milliseconds("action_aware", "views")),
         ("kth_explorer on one thread, times real time, no -march", "at least", 200.0,
          [("default run", statistics.median(factors) if factors else None)]),
         ("Parsing everything against Eigen and the standard headers", "at most", 1.4,

@@ -9,6 +9,7 @@
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/map/cells/t_bayes.hpp"
 #include "incognita/map/entropy_layer.hpp"
+#include "incognita/map/learned_cells.hpp"
 #include "incognita/map/map.hpp"
 #include "incognita/map/occupancy.hpp"
 #include "incognita/map/occupancy_layer.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "incognita/frontier/frontier.hpp"
 #include "incognita/frontier/frontier_layer.hpp"
 #include "incognita/grid/traversal.hpp"
+#include "incognita/map/learned_cells.hpp"
 #include "incognita/planning/closed_cells.hpp"
 #include "incognita/planning/collision_guard.hpp"
 #include "incognita/planning/follow.hpp"
@@ -58,6 +60,7 @@ class Explorer {
         entropy_(entropy),
         occupancy_(slam_.map().lattice(), params.thresholds),
         frontier_(slam_.map().lattice(), params.frontier),
+        learned_(slam_.map().lattice()),
         closed_(slam_.map().lattice(), params.area),
         search_(slam_.map().lattice()),
         set_aside_(params.set_aside),
@@ -89,7 +92,7 @@ class Explorer {
       closed_.grow_to_include(occupancy_.grid().box());
       frontier_.follow(occupancy_, closed_bits());
     }
-    has_changed_ = has_changed_ || !occupancy_.changed_tiles().empty();
+    learned_.follow(occupancy_);
     reached_ = enclosing_box(reached_, cells_in_reach(map().lattice(), scan, belief().pose, map().hit_push_m()));
     extend_trail(belief().pose.position());
     return last_scan_.scan;
@@ -290,14 +293,18 @@ class Explorer {
     }
     if (follower_.is_finished()) return true;
     if (path_was_closed()) return true;
-    // No switch without a change of the map: planning anew could only swing.
-    if (time_s_ < decision_.time_s + params_.decision_interval_s || !has_changed_) return false;
-    switch (params_.strategy) {
-      case Strategy::persistent: return false;
-      case Strategy::last_mile: has_changed_ = false; return !is_informative(goal);
-      case Strategy::online: return true;
-    }
-    return false;
+    if (params_.strategy == Strategy::persistent || time_s_ < asked_s_ + params_.decision_interval_s) return false;
+    // No switch without anything learned: planning anew could only swing. What is not worth going to is not worth a switch either.
+    const bool is_online = params_.strategy == Strategy::online;
+    const double learned_min = is_online ? std::max(1.0, params_.gain_min_cells) : 1.0;
+    if (static_cast<double>(learned_.count() - learned_then_) < learned_min) return false;
+    note_what_is_known();
+    return is_online || !is_informative(goal);
+  }
+
+  void note_what_is_known() {
+    asked_s_ = time_s_;
+    learned_then_ = learned_.count();
   }
 
   [[nodiscard]] ReliableVisibility visibility() const {
@@ -335,7 +342,7 @@ class Explorer {
 
   bool choose() {
     reserve_reach();
-    has_changed_ = false;
+    note_what_is_known();
     const OccupancyGrid<2>& occupancy = occupancy_.grid();
     if (failed_) set_aside_.add(*failed_, occupancy);
     failed_.reset();
@@ -382,6 +389,7 @@ class Explorer {
   EntropyTable entropy_;
   OccupancyLayer<2> occupancy_;
   FrontierLayer<2> frontier_;
+  LearnedCells<2> learned_;
   ClosedCells<2> closed_;
   CandidateSearch<Cell> search_;
   ViewpointSearch viewpoints_;
@@ -400,7 +408,8 @@ class Explorer {
   bool is_returning_ = false;
   double paused_s_ = 0.0;       // when it was paused
   double goal_since_s_ = 0.0;   // when the chosen frontier was chosen first, or the way back was taken
-  bool has_changed_ = false;  // the occupancy, since it was last asked for its goal
+  double asked_s_ = 0.0;        // when the goal was last asked whether it serves
+  std::size_t learned_then_ = 0;  // how many cells were then
   double time_s_ = 0.0;
   double found_s_ = 0.0;      // when the filter was last not lost
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive

@@ -7,7 +7,7 @@ namespace incognita {
 enum class Strategy {
   persistent,  ///< at the viewpoint (Algorithm 2)
   last_mile,   ///< as soon as the viewpoint is no longer informative (Algorithm 3)
-  online       ///< in fixed periods, if the map has changed (Algorithm 4, which plans whether it has or not and can swing for ever)
+  online       ///< in fixed periods, if enough was learned (Algorithm 4 plans whether it was or not, and can swing for ever)
 };
 
 /// What is known of a frontier before it is gone to.

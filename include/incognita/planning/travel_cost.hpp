@@ -68,10 +68,9 @@ class TravelCostField {
   /// Makes this the field of another start or belief on the same lattice; storage is used again.
   /// `clearance_m` holds the distance from each cell's centre to the centre of the nearest occupied one, as
   /// distance_transform_m returns it, or to anything else that the robot must keep clear of. Nothing can be reached from a start
-  /// outside of the grid's box. Throws
-  /// std::invalid_argument for bad parameters, a start that is not finite, and grids with different boxes; the field is then
-  /// as it was. O(cells) to set up and O(reached cells) to search: a bucket queue (Dial 1969), exact because no step is
-  /// cheaper than a bucket is wide.
+  /// outside of the grid's box. Throws std::invalid_argument for bad parameters, a start that is not finite, and grids with
+  /// different boxes; the field is then as it was. O(cells) to set up and O(reached cells) to search: a bucket queue (Dial 1969),
+  /// exact because no step is cheaper than a bucket is wide.
   void restart(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m, const Eigen::Vector2d& start_m,
                const TravelParams& params = {}) {
     params.validate();
