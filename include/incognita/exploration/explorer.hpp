@@ -287,12 +287,13 @@ class Explorer {
   [[nodiscard]] bool goal_is_done() {
     const Candidate& goal = *decision_.chosen();
     if (std::exchange(must_decide_, false)) return true;
-    if (time_s_ > goal_since_s_ + patience_s(goal) || (follower_.is_finished() && is_informative(goal))) {
+    // Arrived, what is still to be seen may be what lay behind; only if nothing was learned, the goal has told all that it can.
+    const bool is_in_vain = follower_.is_finished() && learned_.count() == learned_at_decision_ && is_informative(goal);
+    if (is_in_vain || time_s_ > goal_since_s_ + patience_s(goal)) {
       failed_ = goal.frontier_m;
       return true;
     }
-    if (follower_.is_finished()) return true;
-    if (path_was_closed()) return true;
+    if (follower_.is_finished() || path_was_closed()) return true;
     if (params_.strategy == Strategy::persistent || time_s_ < asked_s_ + params_.decision_interval_s) return false;
     // No switch without anything learned: planning anew could only swing. What is not worth going to is not worth a switch either.
     const bool is_online = params_.strategy == Strategy::online;
@@ -343,6 +344,7 @@ class Explorer {
   bool choose() {
     reserve_reach();
     note_what_is_known();
+    learned_at_decision_ = learned_.count();
     const OccupancyGrid<2>& occupancy = occupancy_.grid();
     if (failed_) set_aside_.add(*failed_, occupancy);
     failed_.reset();
@@ -409,7 +411,8 @@ class Explorer {
   double paused_s_ = 0.0;       // when it was paused
   double goal_since_s_ = 0.0;   // when the chosen frontier was chosen first, or the way back was taken
   double asked_s_ = 0.0;        // when the goal was last asked whether it serves
-  std::size_t learned_then_ = 0;  // how many cells were then
+  std::size_t learned_then_ = 0;         // how many cells were then
+  std::size_t learned_at_decision_ = 0;  // how many were at the last decision
   double time_s_ = 0.0;
   double found_s_ = 0.0;      // when the filter was last not lost
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive
