@@ -124,7 +124,8 @@ incognita::FrontierInformation information_of(const std::string& name) {
   using incognita::FrontierInformation;
   if (name == "uniform") return FrontierInformation::uniform;
   if (name == "size") return FrontierInformation::size;
-  return name == "entropy" ? FrontierInformation::entropy : FrontierInformation::big;
+  if (name == "entropy") return FrontierInformation::entropy;
+  return name == "log-big" ? FrontierInformation::log_big : FrontierInformation::big;
 }
 
 incognita::NavigationCost navigation_of(const std::string& name) {

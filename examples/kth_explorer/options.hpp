@@ -79,9 +79,9 @@ struct Options {
       ->check(CLI::IsMember({"persistent", "last-mile", "online"}))
       ->capture_default_str();
   app.add_option("--information", options.information,
-                 "what a frontier is worth: 1 (with geodesic, the nearest is gone to), its size, its entropy, or the information\n"
-                 "gain of the path to it")
-      ->check(CLI::IsMember({"uniform", "size", "entropy", "big"}))
+                 "what a frontier is worth: 1 (with geodesic, the nearest is gone to), its size, its entropy, the information\n"
+                 "gain of the path to it, or its order of magnitude, which leaves less behind")
+      ->check(CLI::IsMember({"uniform", "size", "entropy", "big", "log-big"}))
       ->capture_default_str();
   app.add_option("--navigation", options.navigation, "what that is divided by: nothing, the straight line, or the cost of the way")
       ->check(CLI::IsMember({"uniform", "euclidean", "geodesic"}))

@@ -84,6 +84,7 @@ TEST_CASE("every strategy, measure of information and cost of navigation explore
   };
   const Choice choice = GENERATE(Choice{Strategy::persistent, FrontierInformation::big, NavigationCost::geodesic},
                                  Choice{Strategy::online, FrontierInformation::big, NavigationCost::geodesic},
+                                 Choice{Strategy::last_mile, FrontierInformation::log_big, NavigationCost::geodesic},
                                  Choice{Strategy::last_mile, FrontierInformation::uniform, NavigationCost::geodesic},
                                  Choice{Strategy::last_mile, FrontierInformation::size, NavigationCost::euclidean},
                                  Choice{Strategy::persistent, FrontierInformation::entropy, NavigationCost::uniform},
@@ -116,6 +117,20 @@ TEST_CASE("candidates are ranked by what they tell for what they cost") {
     CHECK(candidate.utility == Approx(candidate.information / (candidate.navigation_cost + params.travel_offset_m)));
     CHECK((candidate.goal_m() - explorer.map().lattice().center_m(candidate.viewpoint)).norm() < 1e-9);
     if (i > 0) CHECK(candidate.utility <= candidates[i - 1].utility);
+  }
+}
+
+TEST_CASE("the order of magnitude of a gain counts from the least that is worth going for") {
+  Simulator simulator = test::office_simulator(0.9, 6);
+  ExplorerParams params = quick_params();
+  params.information = FrontierInformation::log_big;
+  params.gain_min_cells = GENERATE(0.0, 7.0);
+  OfficeExplorer explorer(params, Map<TBayes>{}, Shannon{});
+  test::run_mission(explorer, simulator, 4.0);
+  REQUIRE_FALSE(explorer.decision().candidates.empty());
+  for (const Candidate& candidate : explorer.decision().candidates) {
+    const double unit_nats = std::max(1.0, params.gain_min_cells) * std::log(2.0);
+    CHECK(candidate.information == Approx(std::log(1.0 + candidate.gain_nats / unit_nats)).epsilon(1e-6));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -51,12 +52,12 @@ class CandidateSearch {
   [[nodiscard]] Polyline path_to(const Index<2>& cell) const { return Polyline(shorten_path(ways_, find_path(ways_, cell))); }
 
   /// The candidates that views of frontiers make, the highest utility first, at most candidates_max unless none of these is worth
-  /// going to. By big those that gain too little are left out.
+  /// going to. By the gain of paths those that gain too little are left out.
   template <class Filter>
   [[nodiscard]] std::vector<Candidate> candidates(std::vector<FrontierView> views, const std::vector<Frontier<2>>& frontiers,
                                                   const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
                                                   const ExplorerParams& params) {
-    std::vector<Candidate> candidates = params.information == FrontierInformation::big
+    std::vector<Candidate> candidates = is_of_path(params.information)
                                             ? first_gainful(views, frontiers, map, entropy, filter, params)
                                             : most_useful(views, frontiers, map, entropy, params);
     sort_by_utility(candidates);
@@ -76,7 +77,8 @@ class CandidateSearch {
       case FrontierInformation::uniform: candidate.information = 1.0; break;
       case FrontierInformation::size: candidate.information = frontier_size_m2(frontier.cells, map.resolution_m()); break;
       case FrontierInformation::entropy: candidate.information = frontier_entropy_nats_m2(frontier.cells, map, entropy); break;
-      case FrontierInformation::big: break;  // told by its path
+      case FrontierInformation::big:
+      case FrontierInformation::log_big: break;  // told by its path
     }
     rate(candidate, params);
     return candidate;
@@ -128,8 +130,10 @@ class CandidateSearch {
       evaluate_candidates(map, entropy, filter, gainful, params.gain, params.threads, scratch_);
       std::erase_if(gainful, [&](const Candidate& candidate) { return candidate.gain_nats < gain_min_nats; });
     }
+    const double unit_nats = gain_min_nats > 0.0 ? gain_min_nats : entropy(0.0F);
     for (Candidate& candidate : gainful) {
-      candidate.information = candidate.gain_nats;
+      const bool is_log = params.information == FrontierInformation::log_big;
+      candidate.information = is_log ? std::log1p(candidate.gain_nats / unit_nats) : candidate.gain_nats;
       rate(candidate, params);
     }
     return gainful;

@@ -32,10 +32,10 @@ struct ExplorerParams {
   FrontierInformation information = FrontierInformation::big;
   NavigationCost navigation = NavigationCost::geodesic;
   double travel_offset_m = 2.0;            ///< added to costs that are ways, so that what is at hand does not always win; >= 0
-  int candidates_max = 40;                 ///< so many are compared: of big the cheapest to reach that are worth going, >= 1
+  int candidates_max = 40;                 ///< so many are compared: by the gain of paths the cheapest to reach that are worth going, >= 1
   double visibility_tolerance_m = 0.05;    ///< frontiers must be seen from all places this near to a viewpoint, > 0
   double information_min_m2 = 0.01;        ///< a viewpoint from where no more of the frontier is seen is not gone to, >= 0
-  double gain_min_cells = 7.0;             ///< nor is one, by big, for less than the entropy of so many unknown cells
+  double gain_min_cells = 7.0;             ///< nor is one, by the gain of paths, for less than the entropy of so many unknown cells
   double decision_interval_s = 1.0;        ///< a goal that still leads somewhere is not reconsidered sooner
   double blocked_max_s = 1.0;              ///< standing before an obstacle for longer, the robot retreats from it
   double position_sigma_max_m = 1.0;       ///< lost beyond
