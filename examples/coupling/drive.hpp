@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/csv.hpp"
 #include "coupling/scene.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/exploration/information_gain.hpp"
 #include "support/chart.hpp"
+#include "support/csv.hpp"
 
 namespace coupling {
 
@@ -120,7 +120,7 @@ struct Drive {
 }
 
 inline void write_drives(const std::filesystem::path& path, const std::vector<Drive>& drives) {
-  write_csv(path, "surroundings,scans_per_m,x_m,trace_m2,trace_over_initial,yaw_variance_rad2",
+  examples::write_csv(path, "surroundings,scans_per_m,x_m,trace_m2,trace_over_initial,yaw_variance_rad2",
             [&](std::ostream& out) {
               for (const Drive& drive : drives) {
                 for (const incognita::PoseBelief& belief : drive.beliefs) {
