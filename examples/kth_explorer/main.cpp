@@ -22,6 +22,7 @@
 #include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
 #include "kth_explorer/results.hpp"
+#include "support/exploration_names.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
 
@@ -98,23 +99,6 @@ Filter make_filter(const Options& options) {
   return Filter(params);
 }
 
-incognita::Strategy strategy_of(const std::string& name) {
-  using incognita::Strategy;
-  return name == "persistent" ? Strategy::persistent : name == "online" ? Strategy::online : Strategy::last_mile;
-}
-
-incognita::FrontierInformation information_of(const std::string& name) {
-  using incognita::FrontierInformation;
-  if (name == "uniform") return FrontierInformation::uniform;
-  if (name == "size") return FrontierInformation::size;
-  return name == "entropy" ? FrontierInformation::entropy : FrontierInformation::big;
-}
-
-incognita::NavigationCost navigation_of(const std::string& name) {
-  using incognita::NavigationCost;
-  return name == "uniform" ? NavigationCost::uniform : name == "euclidean" ? NavigationCost::euclidean : NavigationCost::geodesic;
-}
-
 template <class Cell, class Filter>
 void explore(const Options& options, incognita::Simulator& simulator, const incognita::RobotParams& robot,
              double range_max_m, examples::OutputFolder& output) {
@@ -123,9 +107,9 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   params.travel.robot_radius_m = robot.radius_m;
   params.guard.robot_radius_m = robot.radius_m;
   params.gain.range_max_m = range_max_m;
-  params.strategy = strategy_of(options.strategy);
-  params.information = information_of(options.information);
-  params.navigation = navigation_of(options.navigation);
+  params.strategy = examples::named<Strategy>(options.strategy);
+  params.information = examples::named<FrontierInformation>(options.information);
+  params.navigation = examples::named<NavigationCost>(options.navigation);
   params.threads = options.threads;
   MapParams map_params;
   map_params.resolution_m = options.resolution_m;

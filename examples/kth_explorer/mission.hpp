@@ -19,6 +19,7 @@
 #include "incognita/metrics/truth.hpp"
 #include "incognita/metrics/visible_floor.hpp"
 #include "incognita/simulation/simulator.hpp"
+#include "support/drive.hpp"
 
 namespace kth_explorer {
 
@@ -123,35 +124,20 @@ template <class Explorer>
                                   seconds_since(start)});
     }
   };
-  const auto remember_poses = [&] {
+  const auto on_scan = [&] {
+    observe_and_decide();
     record.estimated.push_back({simulator.time_s(), explorer.belief().pose});
     record.truth.push_back({simulator.time_s(), simulator.T_start_robot()});
   };
-  const auto remember = [&] {
+  examples::drive(explorer, simulator, duration_s, on_scan, [&] {
     const Pose2 truth = simulator.T_start_robot();
     record.trajectory_error.add(explorer.belief().pose, truth);
     record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
-    if (simulator.scan_is_new()) remember_poses();
-  };
-
-  // Steps are counted, so that the end does not depend on how a time is rounded.
-  constexpr double step_s = 0.02;
-  const auto steps_max = static_cast<std::size_t>(std::ceil(duration_s / step_s - 1e-9));
-  observe_and_decide();
-  remember_poses();
-  Twist2 command = explorer.command(simulator.scan());
-  while (!explorer.stopped() && simulator.steps() < steps_max) {
-    explorer.move(simulator.step(command), step_s);
-    if (simulator.scan_is_new()) {
-      observe_and_decide();
-      command = explorer.command(simulator.scan());
-    }
-    remember();
     if (simulator.steps() % 50 == 0) {
       record.progress.push_back(progress());
       if (report) report(record.progress.back());
     }
-  }
+  });
 
   const ProgressRecord last = progress();
   if (record.progress.empty() || record.progress.back().time_s < last.time_s) record.progress.push_back(last);
