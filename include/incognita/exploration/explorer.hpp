@@ -343,9 +343,11 @@ class Explorer {
   /// Makes travel_costs_ the field of the ways from where the robot is.
   void search_ways(const OccupancyGrid<2>& occupancy) {
     distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; }, clearance_m_);
-    // Where the robot has been its body fits, however tight the belief draws the place: no door closes behind it.
+    // Where the robot has been its body fits, however tight the belief draws the place: no door closes behind it. Where it stands is
+    // left as drawn: from a tight place the search knows a way out, from one with room that has none around it does not.
+    const Index<2> here = map().lattice().index_of(belief().pose.position());
     for (const Index<2>& cell : trail_) {
-      if (!clearance_m_.contains(cell)) continue;
+      if (!clearance_m_.contains(cell) || equal(cell, here)) continue;
       float& clearance = clearance_m_[clearance_m_.offset_of(cell)];
       clearance = std::max(clearance, static_cast<float>(params_.travel.clearance_hard_m()));
     }
