@@ -121,16 +121,16 @@ inline void write_candidates(const std::filesystem::path& path, const Ranking& r
 /// The ellipses along the paths.
 inline void write_candidate_beliefs(const std::filesystem::path& path, const Ranking& ranking) {
   examples::write_csv(path, "rank,x_m,y_m,variance_x_m2,covariance_xy_m2,variance_y_m2,yaw_variance_rad2",
-            [&](std::ostream& out) {
-              for (std::size_t rank = 0; rank < ranking.paths.size(); ++rank) {
-                for (const incognita::PoseBelief& belief : ranking.paths[rank].beliefs) {
-                  const Eigen::Matrix3d& covariance = belief.covariance;
-                  out << rank + 1 << ',' << belief.pose.x_m << ',' << belief.pose.y_m << ','
-                      << covariance(0, 0) << ',' << covariance(0, 1) << ',' << covariance(1, 1) << ','
-                      << covariance(2, 2) << '\n';
-                }
-              }
-            });
+                      [&](std::ostream& out) {
+                        for (std::size_t rank = 0; rank < ranking.paths.size(); ++rank) {
+                          for (const incognita::PoseBelief& belief : ranking.paths[rank].beliefs) {
+                            const Eigen::Matrix3d& covariance = belief.covariance;
+                            out << rank + 1 << ',' << belief.pose.x_m << ',' << belief.pose.y_m << ','
+                                << covariance(0, 0) << ',' << covariance(0, 1) << ',' << covariance(1, 1) << ','
+                                << covariance(2, 2) << '\n';
+                          }
+                        }
+                      });
 }
 
 }  // namespace coupling

@@ -10,7 +10,7 @@
 
 namespace office_exploration {
 
-/// The mapped share after each metre driven, averaged over a choice's trials; one that has ended stays at what it had mapped.
+/// The mapped share after each metre driven, the mean of a choice's trials; one that has ended stays at what it had mapped.
 [[nodiscard]] inline std::vector<Progress> mean_progress(const Series& series, double distance_max_m) {
   std::vector<Progress> means;
   std::vector<std::size_t> next(series.trials.size(), 0);

@@ -36,8 +36,8 @@ struct Series {
   return all;
 }
 
-/// V-B: any strategy by the straight line and by the way, in both offices. The paper takes the frontier's size; the information gain
-/// of the path is the library's own default.
+/// V-B: any strategy by the straight line and by the way, in both offices. The paper takes the frontier's size; the
+/// information gain of the path is the library's own default.
 [[nodiscard]] inline std::vector<Series> strategy_experiment(std::size_t start_count) {
   using namespace incognita;
   std::vector<Series> all;
@@ -69,8 +69,8 @@ struct Series {
   return all;
 }
 
-/// Runs all trials side by side; none depends on another or on the number of threads (0: OpenMP's own number). report(done, all) is
-/// called as trials end, by any thread.
+/// Runs all trials side by side; none depends on another or on the number of threads (0: OpenMP's own number).
+/// report(done, all) is called as trials end, by any thread.
 inline void run_trials(std::vector<Series>& all, int threads, const std::function<void(std::size_t, std::size_t)>& report) {
   std::vector<std::pair<Series*, std::size_t>> trials;
   for (Series& series : all) {

@@ -58,10 +58,11 @@ namespace detail {
 }
 
 [[nodiscard]] inline examples::Stroke curve_stroke(const Series& series) {
-  if (series.experiment == "utility" || series.choice.navigation == incognita::NavigationCost::geodesic) {
-    return examples::Stroke::solid;
-  }
-  return series.choice.navigation == incognita::NavigationCost::euclidean ? examples::Stroke::dashed : examples::Stroke::points;
+  using incognita::NavigationCost;
+  using examples::Stroke;
+  const NavigationCost navigation = series.choice.navigation;
+  if (series.experiment == "utility" || navigation == NavigationCost::geodesic) return Stroke::solid;
+  return navigation == NavigationCost::euclidean ? Stroke::dashed : Stroke::points;
 }
 
 /// Each start's way in a colour of its own.
@@ -117,8 +118,9 @@ inline void draw_ways(const std::filesystem::path& path, const Figure& figure) {
   const Eigen::Vector2d size_m = plan.box().extent().cast<double>() * plan.resolution_m();
   const double title_m = 0.1 * size_m.y();
   const std::size_t rows = (figure.series.size() + figure.columns - 1) / figure.columns;
-  const Eigen::Vector2d step_m(size_m.x() + gap_m, size_m.y() + title_m);
-  examples::Drawing drawing({{0.0, 0.0}, {static_cast<double>(figure.columns) * step_m.x(), static_cast<double>(rows) * step_m.y()}});
+  const Eigen::Array2d step_m(size_m.x() + gap_m, size_m.y() + title_m);
+  const Eigen::Array2d copies(static_cast<double>(figure.columns), static_cast<double>(rows));
+  examples::Drawing drawing({{0.0, 0.0}, (copies * step_m).matrix()});
   for (std::size_t i = 0; i < figure.series.size(); ++i) {
     const Series& series = figure.series[i];
     const Eigen::Vector2d shift_m(static_cast<double>(i % figure.columns) * step_m.x() + 0.5 * gap_m,
@@ -131,8 +133,9 @@ inline void draw_ways(const std::filesystem::path& path, const Figure& figure) {
       drawing.polyline(way_m, detail::way_color(start), 1.0);
       drawing.marker(way_m.front(), detail::way_color(start), 4.0);
     }
-    const std::string title = examples::name_of(series.choice.strategy) + ", " + examples::name_of(series.choice.information) +
-                              ", " + examples::name_of(series.choice.navigation);
+    const Choice& choice = series.choice;
+    const std::string title = examples::name_of(choice.strategy) + ", " + examples::name_of(choice.information) + ", " +
+                              examples::name_of(choice.navigation);
     drawing.text(shift_m + Eigen::Vector2d(0.0, size_m.y()), title, ink, title_px, {2.0, 7.0});
   }
   drawing.legend({{"walls and furniture", ink, examples::Swatch::area},

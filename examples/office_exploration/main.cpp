@@ -75,9 +75,9 @@ void run(const Options& options) {
 }  // namespace office_exploration
 
 int main(int argc, char** argv) {
-  CLI::App app("Robots that know their pose and see 1.5 m explore office floors, by every strategy, measure of information and\n"
-               "cost of navigation of Isleyen et al., section V. Writes runs.csv, curves.csv, and of each world the mapped\n"
-               "percentage over the distance and the robots' ways as PNG.");
+  CLI::App app("Robots that know their pose and see 1.5 m explore office floors, by every strategy, measure of\n"
+               "information and cost of navigation of Isleyen et al., section V. Writes runs.csv, curves.csv, and of\n"
+               "each world the mapped percentage over the distance and the robots' ways as PNG.");
   return examples::run_program("office_exploration", app,
                                [&] { office_exploration::run(office_exploration::parse_options(app, argc, argv)); });
 }

@@ -21,7 +21,8 @@ struct Options {
 [[nodiscard]] inline Options parse_options(CLI::App& app, int argc, char** argv) {
   Options options;
   app.add_option("--experiment", options.experiment,
-                 "utility: information and navigation costs; strategy: strategies in both offices; turtlebot: a cluttered room")
+                 "utility: information and navigation costs; strategy: strategies in both offices; turtlebot: a cluttered "
+                 "room")
       ->check(CLI::IsMember({"utility", "strategy", "turtlebot", "all"}))
       ->capture_default_str();
   app.add_option("--poses", options.poses, "initial poses in each world, 1 to 100")

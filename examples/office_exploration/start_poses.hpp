@@ -17,9 +17,9 @@
 
 namespace office_exploration {
 
-/// Positions each as far from those before it as can be, in a straight line, of the largest region on whose cells' centres a disc is
-/// clear; the first is drawn, as are the headings, so that the robots' maps are turned against the walls. The first poses
-/// of many are those of few. Throws std::invalid_argument when there are fewer cells than poses.
+/// Positions each as far from those before it as can be, in a straight line, of the largest region on whose cells' centres
+/// a disc is clear; the first is drawn, as are the headings, so that the robots' maps are turned against the walls. The
+/// first poses of many are those of few. Throws std::invalid_argument when there are fewer cells than poses.
 [[nodiscard]] inline std::vector<incognita::Pose2> spread_poses(const incognita::World& world, double radius_m,
                                                                 std::size_t count, incognita::Random& random) {
   using namespace incognita;
@@ -31,8 +31,8 @@ namespace office_exploration {
     positions_m.push_back(world.lattice().center_m(regions.labels.index_at(cell)));
   }
   if (positions_m.size() < count) {
-    throw std::invalid_argument("spread_poses: there is room for " + std::to_string(positions_m.size()) + " poses, not for " +
-                                std::to_string(count));
+    throw std::invalid_argument("spread_poses: there is room for " + std::to_string(positions_m.size()) +
+                                " poses, not for " + std::to_string(count));
   }
   std::vector<Pose2> poses;
   std::vector<double> nearest_m(positions_m.size(), std::numeric_limits<double>::infinity());

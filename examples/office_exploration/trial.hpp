@@ -23,8 +23,8 @@ struct Choice {
   incognita::NavigationCost navigation = incognita::NavigationCost::geodesic;
 };
 
-/// TBayes frees nothing within half a metre of where a beam ends, were it in open space, so a robot that sees 1.5 m would know a
-/// metre around it at first; where the pose is known that caution serves nothing.
+/// A scan frees no cell of TBayes within half a metre of where a beam ends, be it in open space. To a robot that sees 1.5 m
+/// that leaves frontiers which its viewpoints do not clear; where the pose is known such caution serves nothing.
 using Belief = incognita::Map<incognita::LogOdds>;
 
 struct Progress {
@@ -77,8 +77,10 @@ inline constexpr double duration_max_s = 3600.0;
   return params;
 }
 
-/// From one of the arena's starts. Odometry and the filter are without noise, so the pose is known, as by the paper's motion capture.
-[[nodiscard]] inline Trial run_trial(const Arena& arena, const incognita::Pose2& start, const incognita::ExplorerParams& params) {
+/// From one of the arena's starts. Odometry and the filter are without noise, so the pose is known, as by the paper's
+/// motion capture.
+[[nodiscard]] inline Trial run_trial(const Arena& arena, const incognita::Pose2& start,
+                                     const incognita::ExplorerParams& params) {
   using namespace incognita;
   SimulatorParams simulation;
   simulation.robot = arena.robot;

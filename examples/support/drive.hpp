@@ -10,8 +10,8 @@
 namespace examples {
 
 /// Drives by `explorer` in `simulator`, which takes 50 steps a second, until the explorer stops or duration_s is over.
-/// on_scan(), called at every new scan, the first at the start included, must let the explorer observe it and decide; on_step() is
-/// called after each step.
+/// on_scan(), called at every new scan, the one at the start included, must let the explorer observe it and decide;
+/// on_step() is called after each step.
 template <class Explorer, class OnScan, class OnStep>
 void drive(Explorer& explorer, incognita::Simulator& simulator, double duration_s, OnScan&& on_scan, OnStep&& on_step) {
   // Steps are counted, so that the end does not depend on how a time is rounded.
