@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/csv.hpp"
 #include "coupling/scene.hpp"
 #include "incognita/entropy/log_odds_table.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/exploration/information_gain.hpp"
 #include "incognita/planning/polyline.hpp"
+#include "support/csv.hpp"
 
 namespace coupling {
 
@@ -108,7 +108,7 @@ struct Ranking {
 }
 
 inline void write_candidates(const std::filesystem::path& path, const Ranking& ranking) {
-  write_csv(path, "rank,path,length_m,gain_nats,gain_exact_pose_nats,final_sigma_m", [&](std::ostream& out) {
+  examples::write_csv(path, "rank,path,length_m,gain_nats,gain_exact_pose_nats,final_sigma_m", [&](std::ostream& out) {
     for (std::size_t rank = 0; rank < ranking.paths.size(); ++rank) {
       const RankedPath& candidate = ranking.paths[rank];
       out << rank + 1 << ",\"" << candidate.name << "\"," << candidate.path.length_m() << ','
@@ -120,17 +120,17 @@ inline void write_candidates(const std::filesystem::path& path, const Ranking& r
 
 /// The ellipses along the paths.
 inline void write_candidate_beliefs(const std::filesystem::path& path, const Ranking& ranking) {
-  write_csv(path, "rank,x_m,y_m,variance_x_m2,covariance_xy_m2,variance_y_m2,yaw_variance_rad2",
-            [&](std::ostream& out) {
-              for (std::size_t rank = 0; rank < ranking.paths.size(); ++rank) {
-                for (const incognita::PoseBelief& belief : ranking.paths[rank].beliefs) {
-                  const Eigen::Matrix3d& covariance = belief.covariance;
-                  out << rank + 1 << ',' << belief.pose.x_m << ',' << belief.pose.y_m << ','
-                      << covariance(0, 0) << ',' << covariance(0, 1) << ',' << covariance(1, 1) << ','
-                      << covariance(2, 2) << '\n';
-                }
-              }
-            });
+  examples::write_csv(path, "rank,x_m,y_m,variance_x_m2,covariance_xy_m2,variance_y_m2,yaw_variance_rad2",
+                      [&](std::ostream& out) {
+                        for (std::size_t rank = 0; rank < ranking.paths.size(); ++rank) {
+                          for (const incognita::PoseBelief& belief : ranking.paths[rank].beliefs) {
+                            const Eigen::Matrix3d& covariance = belief.covariance;
+                            out << rank + 1 << ',' << belief.pose.x_m << ',' << belief.pose.y_m << ','
+                                << covariance(0, 0) << ',' << covariance(0, 1) << ',' << covariance(1, 1) << ','
+                                << covariance(2, 2) << '\n';
+                          }
+                        }
+                      });
 }
 
 }  // namespace coupling

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/csv.hpp"
 #include "coupling/scene.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/exploration/information_gain.hpp"
 #include "support/chart.hpp"
+#include "support/csv.hpp"
 
 namespace coupling {
 
@@ -120,17 +120,17 @@ struct Drive {
 }
 
 inline void write_drives(const std::filesystem::path& path, const std::vector<Drive>& drives) {
-  write_csv(path, "surroundings,scans_per_m,x_m,trace_m2,trace_over_initial,yaw_variance_rad2",
-            [&](std::ostream& out) {
-              for (const Drive& drive : drives) {
-                for (const incognita::PoseBelief& belief : drive.beliefs) {
-                  out << '"' << name_of(drive.surroundings) << "\"," << drive.scans_per_m << ','
-                      << belief.pose.x_m << ',' << Drive::trace_m2(belief) << ','
-                      << Drive::trace_m2(belief) / drive.initial_trace_m2() << ',' << belief.covariance(2, 2)
-                      << '\n';
-                }
-              }
-            });
+  examples::write_csv(path, "surroundings,scans_per_m,x_m,trace_m2,trace_over_initial,yaw_variance_rad2",
+                      [&](std::ostream& out) {
+                        for (const Drive& drive : drives) {
+                          for (const incognita::PoseBelief& belief : drive.beliefs) {
+                            out << '"' << name_of(drive.surroundings) << "\"," << drive.scans_per_m << ','
+                                << belief.pose.x_m << ',' << Drive::trace_m2(belief) << ','
+                                << Drive::trace_m2(belief) / drive.initial_trace_m2() << ',' << belief.covariance(2, 2)
+                                << '\n';
+                          }
+                        }
+                      });
 }
 
 /// The root of the trace, so that growth by 1.1 and by 100 are seen in one chart; the factors are in the

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/csv.hpp"
 #include "coupling/scene.hpp"
 #include "incognita/sensor/scan.hpp"
 #include "support/chart.hpp"
+#include "support/csv.hpp"
 
 namespace coupling {
 
@@ -81,7 +81,7 @@ inline void write_update_strengths(const std::filesystem::path& path,
   for (const double residual_m : kResiduals_m) header << ",passed_log_odds_residual_" << residual_m << "_m";
   for (const double residual_m : kResiduals_m)
     header << ",passed_probability_residual_" << residual_m << "_m";
-  write_csv(path, header.str(), [&](std::ostream& out) {
+  examples::write_csv(path, header.str(), [&](std::ostream& out) {
     for (const UpdateStrength& strength : strengths) {
       out << strength.sigma_m;
       for (const double l : strength.hit_log_odds) out << ',' << l;

@@ -25,6 +25,7 @@
 #include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
 #include "kth_explorer/results.hpp"
+#include "support/exploration_names.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
 
@@ -115,24 +116,6 @@ Filter make_filter(const Options& options) {
   return Filter(params);
 }
 
-incognita::Strategy strategy_of(const std::string& name) {
-  using incognita::Strategy;
-  return name == "persistent" ? Strategy::persistent : name == "online" ? Strategy::online : Strategy::last_mile;
-}
-
-incognita::FrontierInformation information_of(const std::string& name) {
-  using incognita::FrontierInformation;
-  if (name == "uniform") return FrontierInformation::uniform;
-  if (name == "size") return FrontierInformation::size;
-  if (name == "entropy") return FrontierInformation::entropy;
-  return name == "log-big" ? FrontierInformation::log_big : FrontierInformation::big;
-}
-
-incognita::NavigationCost navigation_of(const std::string& name) {
-  using incognita::NavigationCost;
-  return name == "uniform" ? NavigationCost::uniform : name == "euclidean" ? NavigationCost::euclidean : NavigationCost::geodesic;
-}
-
 template <class Cell, class Filter>
 void explore(const Options& options, incognita::Simulator& simulator, const incognita::RobotParams& robot,
              const incognita::World& floor, const incognita::AllowedArea& area, examples::OutputFolder& output) {
@@ -141,9 +124,9 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   params.travel.robot_radius_m = robot.radius_m;
   params.guard.robot_radius_m = robot.radius_m;
   params.gain.range_max_m = simulator.scan().range_max_m();
-  params.strategy = strategy_of(options.strategy);
-  params.information = information_of(options.information);
-  params.navigation = navigation_of(options.navigation);
+  params.strategy = examples::named<Strategy>(options.strategy);
+  params.information = examples::named<FrontierInformation>(options.information);
+  params.navigation = examples::named<NavigationCost>(options.navigation);
   params.area = area.transformed(simulator.T_start_world());
   params.threads = options.threads;
   MapParams map_params;

@@ -21,6 +21,7 @@
 #include "incognita/metrics/truth.hpp"
 #include "incognita/metrics/visible_floor.hpp"
 #include "incognita/simulation/simulator.hpp"
+#include "support/drive.hpp"
 
 namespace kth_explorer {
 
@@ -137,38 +138,23 @@ template <class Explorer>
                                   seconds_since(start)});
     }
   };
-  const auto remember_poses = [&] {
+  const auto on_scan = [&] {
+    observe_and_decide();
     record.estimated.push_back({simulator.time_s(), explorer.belief().pose});
     record.truth.push_back({simulator.time_s(), simulator.T_start_robot()});
   };
-  const auto remember = [&] {
+  const auto remember_error = [&] {
     const Pose2 truth = simulator.T_start_robot();
     record.trajectory_error.add(explorer.belief().pose, truth);
     if (is_estimated()) record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
-    if (simulator.scan_is_new()) remember_poses();
   };
-
-  // Steps are counted, so that the end does not depend on how a time is rounded.
-  constexpr double step_s = 0.02;
-  const auto steps_max = static_cast<std::size_t>(std::ceil(params.duration_s / step_s - 1e-9));
-  observe_and_decide();
-  remember_poses();
-  Twist2 command = explorer.command(simulator.scan());
-  const auto drive_step = [&] {
-    explorer.move(simulator.step(command), step_s);
-    if (simulator.scan_is_new()) {
-      observe_and_decide();
-      command = explorer.command(simulator.scan());
-    }
-    remember();
-  };
-  while (!explorer.stopped() && simulator.steps() < steps_max) {
-    drive_step();
+  examples::drive(explorer, simulator, params.duration_s, on_scan, [&] {
+    remember_error();
     if (simulator.steps() % 50 == 0) {
       record.progress.push_back(progress());
       if (report) report(record.progress.back());
     }
-  }
+  });
   const ProgressRecord last = progress();
   if (record.progress.empty() || record.progress.back().time_s < last.time_s) record.progress.push_back(last);
   record.stop_reason = explorer.stopped().value_or(StopReason::out_of_time);
@@ -178,7 +164,7 @@ template <class Explorer>
 
   if (params.returns) {
     explorer.return_to_start();
-    while (!explorer.stopped() && simulator.steps() < 2 * steps_max) drive_step();
+    examples::drive(explorer, simulator, 2.0 * params.duration_s, on_scan, remember_error);
     record.has_returned = explorer.stopped() == StopReason::returned;
     record.return_distance_m = simulator.distance_m() - record.distance_m;
   }

@@ -10,6 +10,7 @@
 #include "incognita/entropy/shannon.hpp"
 #include "incognita/entropy/tsallis.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
+#include "incognita/map/cells/log_odds.hpp"
 #include "incognita/metrics/coverage.hpp"
 #include "incognita/metrics/visible_floor.hpp"
 #include "small_office.hpp"
@@ -142,6 +143,27 @@ TEST_CASE("what lies behind a door too narrow for the robot is looked at through
   CHECK(to_string(*explorer.stopped()) == "nothing_informative");
   CHECK(simulator.collisions() == 0);
   CHECK((test::left_start() * explorer.belief().pose).x_m < 4.0);
+}
+
+TEST_CASE("a robot that starts in a corner, nearer to the walls than it plans to be, gets away from there") {
+  const Strategy strategy = GENERATE(Strategy::persistent, Strategy::last_mile, Strategy::online);
+  const double yaw_rad = GENERATE(0.3, 0.7, 2.0, 2.6, -1.1, -2.5);
+  SimulatorParams simulation;
+  simulation.odometry = {0.0, 0.0};
+  simulation.sensor.beams = circular_beams(360, 1.5);
+  Simulator simulator(World(test::two_rooms(0.9)), {0.255, 0.255, yaw_rad}, simulation, 1);
+  ExplorerParams params = quick_params();
+  params.strategy = strategy;
+  params.information = FrontierInformation::size;
+  params.gain.range_max_m = 1.5;
+  params.visibility_tolerance_m = 0.1;
+  Explorer<Map<LogOdds>, Behavioral, DeadReckoning> explorer(params, Map<LogOdds>{}, Behavioral{},
+                                                             DeadReckoning({MotionNoise{}, PoseBelief{}}));
+  test::run_mission(explorer, simulator, 30.0);
+  CAPTURE(static_cast<int>(strategy), yaw_rad, simulator.time_s());
+  CHECK_FALSE(explorer.stopped());
+  CHECK(simulator.distance_m() > 5.0);
+  CHECK(simulator.collisions() == 0);
 }
 
 TEST_CASE("a robot whose pose is too uncertain is lost") {

@@ -29,12 +29,14 @@ class CandidateSearch {
       : clearance_m_(lattice, {}, std::numeric_limits<float>::infinity()), ways_(lattice) {}
 
   /// Makes ways() those from a place. Where the robot has been, on the cells of its trail, its body fits, however tight the belief
-  /// draws the place: no door closes behind it. O(cells).
+  /// draws the place: no door closes behind it. Where it stands is left as drawn: from a tight place the search knows a way out,
+  /// from one with room that has none around it does not. O(cells).
   void search_ways(const OccupancyGrid<2>& occupancy, const std::vector<Index<2>>& trail, const ClosedCells<2>& closed,
                    const Eigen::Vector2d& from_m, const TravelParams& params) {
     distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; }, clearance_m_);
+    const Index<2> here = occupancy.lattice().index_of(from_m);
     for (const Index<2>& cell : trail) {
-      if (!clearance_m_.contains(cell)) continue;
+      if (!clearance_m_.contains(cell) || equal(cell, here)) continue;
       float& clearance_m = clearance_m_[clearance_m_.offset_of(cell)];
       clearance_m = std::max(clearance_m, static_cast<float>(params.clearance_hard_m()));
     }

@@ -273,6 +273,7 @@ class Explorer {
       goal_since_s_ = time_s_;
     }
     failed_.reset();
+    if (equal(map().lattice().index_of(belief().pose.position()), start)) return end(StopReason::returned);
     search_ways();
     if (!search_.ways().reaches(start)) return end(StopReason::nothing_reachable);
     Candidate back;

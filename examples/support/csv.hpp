@@ -1,4 +1,4 @@
-/// Tables of a figure as CSV files.
+/// Tables as CSV files.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,9 @@
 
 #include "support/output_folder.hpp"
 
-namespace coupling {
+namespace examples {
 
-/// Writes the header line, then what write_rows(stream) writes. Throws examples::OutputError when the disk
-/// refuses.
+/// Writes the header line, then what write_rows(stream) writes. Throws OutputError when the disk refuses.
 template <class WriteRows>
 void write_csv(const std::filesystem::path& path, const std::string& header, WriteRows&& write_rows) {
   std::ofstream file(path);
@@ -19,7 +18,7 @@ void write_csv(const std::filesystem::path& path, const std::string& header, Wri
   file << header << '\n';
   write_rows(static_cast<std::ostream&>(file));
   file.close();
-  if (!file) throw examples::OutputError("cannot write " + path.filename().string());
+  if (!file) throw OutputError("cannot write " + path.filename().string());
 }
 
-}  // namespace coupling
+}  // namespace examples
