@@ -9,7 +9,7 @@
 
 namespace examples {
 
-/// Drives by `explorer` in `simulator`, which takes 50 steps a second, until the explorer stops or duration_s is over.
+/// Drives by `explorer` in `simulator`, which takes 50 steps a second, until the explorer stops or the simulator's time is duration_s.
 /// on_scan(), called at every new scan, the one at the start included, must let the explorer observe it and decide;
 /// on_step() is called after each step.
 template <class Explorer, class OnScan, class OnStep>
@@ -17,7 +17,7 @@ void drive(Explorer& explorer, incognita::Simulator& simulator, double duration_
   // Steps are counted, so that the end does not depend on how a time is rounded.
   constexpr double step_s = 0.02;
   const auto steps_max = static_cast<std::size_t>(std::ceil(duration_s / step_s - 1e-9));
-  on_scan();
+  if (simulator.steps() == 0) on_scan();
   incognita::Twist2 command = explorer.command(simulator.scan());
   while (!explorer.stopped() && simulator.steps() < steps_max) {
     explorer.move(simulator.step(command), step_s);

@@ -25,11 +25,12 @@ struct Names<incognita::Strategy> {
 
 template <>
 struct Names<incognita::FrontierInformation> {
-  static constexpr std::array<std::pair<incognita::FrontierInformation, std::string_view>, 4> pairs{
+  static constexpr std::array<std::pair<incognita::FrontierInformation, std::string_view>, 5> pairs{
       {{incognita::FrontierInformation::uniform, "uniform"},
        {incognita::FrontierInformation::size, "size"},
        {incognita::FrontierInformation::entropy, "entropy"},
-       {incognita::FrontierInformation::big, "big"}}};
+       {incognita::FrontierInformation::big, "big"},
+       {incognita::FrontierInformation::log_big, "log-big"}}};
 };
 
 template <>
