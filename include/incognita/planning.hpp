@@ -1,5 +1,6 @@
 /// planning/: from a belief to speeds, for a disc-shaped robot in the plane. `TravelCostField` is one search
-/// that serves all goals; `find_path` and `shorten_path` turn it into a path; `PathFollower` follows a path;
+/// that serves all goals; `find_path` and `shorten_path` turn it into a path; `PathFollower` follows a path,
+/// through the middle of what is narrow (`roomiest_aside`);
 /// `guard_command` slows the robot down before what its latest scan shows; `Retreat` takes it out of a tight
 /// place. `safe_spaces`, `visit_cost` and `SafePathFollower` are the planning of Isleyen et al.: where a body fits, paths that keep
 /// clear of walls and near to the unknown, and a unicycle that follows them without leaving where it fits. `AllowedArea` is where a
@@ -13,6 +14,7 @@
 #include "incognita/planning/path.hpp"
 #include "incognita/planning/polyline.hpp"
 #include "incognita/planning/retreat.hpp"
+#include "incognita/planning/room_aside.hpp"
 #include "incognita/planning/safe_follow.hpp"
 #include "incognita/planning/safe_space.hpp"
 #include "incognita/planning/travel_cost.hpp"

@@ -9,6 +9,7 @@
 #include "incognita/planning/collision_guard.hpp"
 #include "incognita/planning/follow.hpp"
 #include "incognita/planning/path.hpp"
+#include "incognita/planning/room_aside.hpp"
 #include "incognita/sensor/ray_cast.hpp"
 
 using namespace incognita;
@@ -136,6 +137,7 @@ TEST_CASE("Bad follow parameters are refused", "[planning]") {
   refused([](FollowParams& params) { params.lookahead_m = 0.1; }, "lookahead_m is 0.1");
   refused([](FollowParams& params) { params.lookahead_min_m = 0.0; }, "lookahead_min_m");
   refused([](FollowParams& params) { params.deviation_max_m = 0.0; }, "deviation_max_m");
+  refused([](FollowParams& params) { params.aside_max_m = -0.1; }, "aside_max_m");
   refused([](FollowParams& params) { params.turn_in_place_rad = 1.6; }, "turn_in_place_rad");
   refused([](FollowParams& params) { params.goal_tolerance_m = 0.0; }, "goal_tolerance_m");
 }
@@ -193,4 +195,64 @@ TEST_CASE("A robot drives through doors of 0.6 m, planned, followed and guarded,
     REQUIRE(time_s < 20.0 + 2.0 * follower.path().length_m());
   }
   REQUIRE(closest_m > 0.2);
+}
+
+TEST_CASE("The roomiest place aside is the middle of what is narrow, and the place itself where there is room",
+          "[planning]") {
+  std::vector<Eigen::Vector2d> walls_m;  // 0.45 m apart
+  for (double x_m = -0.5; x_m <= 0.5; x_m += 0.01) {
+    walls_m.push_back({x_m, -0.225});
+    walls_m.push_back({x_m, 0.225});
+  }
+  const RoomyPlace middle = roomiest_aside({0.0, 0.08}, {2.0, 0.0}, walls_m, 0.1, 0.26);
+  CHECK(middle.position_m.x() == Approx(0.0).margin(1e-12));
+  CHECK(middle.position_m.y() == Approx(0.0).margin(1e-9));
+  CHECK(middle.clearance_m == Approx(0.225));
+  const RoomyPlace no_further = roomiest_aside({0.0, 0.08}, {2.0, 0.0}, walls_m, 0.05, 0.26);
+  CHECK(no_further.position_m.y() == Approx(0.03));
+  const RoomyPlace enough = roomiest_aside({0.0, 0.08}, {2.0, 0.0}, walls_m, 0.1, 0.14);
+  CHECK(enough.position_m == Eigen::Vector2d(0.0, 0.08));
+  const RoomyPlace undirected = roomiest_aside({0.0, 0.08}, {0.0, 0.0}, walls_m, 0.1, 0.26);
+  CHECK(undirected.position_m == Eigen::Vector2d(0.0, 0.08));
+}
+
+TEST_CASE("A path half a cell aside of the middle leads a robot of 0.4 m through a door of 0.45 m, by what it sees",
+          "[planning]") {
+  // A wall of 0.15 m across x = 0; 0.05 m a cell.
+  OccupancyGrid<2> world(Lattice<2>(0.05), {Index<2>(-60, -60), Index<2>(60, 60)}, Occupancy::free);
+  for (int x = 0; x < 3; ++x) {
+    for (int y = -60; y < 60; ++y) world.set({x, y}, y >= -4 && y < 5 ? Occupancy::free : Occupancy::occupied);
+  }
+  const auto is_wall = [](Occupancy cell) { return cell == Occupancy::occupied; };
+  constexpr double middle_m = 0.025;
+  Random random(5);
+  int passed_blindly = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const bool sees = trial % 2 == 0;
+    const double aside_m = random.uniform() < 0.5 ? -0.05 : 0.05;
+    const double y_m = middle_m + aside_m;
+    PathFollower follower({{-1.0, y_m + random.uniform(-0.5, 0.5)}, {-0.3, y_m}, {1.0, y_m}});
+    Pose2 pose{-1.0, follower.path().points_m().front().y(), random.uniform(-1.0, 1.0)};
+    Scan<2> scan(circular_beams(360, 10.0));
+    double closest_m = 1.0;
+    Twist2 command;
+    for (int step = 0; !follower.is_finished() && step * step_s < 40.0; ++step) {
+      if (step % 5 == 0) {
+        for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+          const Eigen::Vector2d direction = pose.rotation() * scan.direction(beam);
+          const double range_m = cast_ray_m(world, pose.position(), direction, 10.0, is_wall);
+          scan.set_range_m(beam, range_m < 10.0 ? std::min(range_m + random.normal(0.0, 0.01), 10.0) : 10.0);
+        }
+        const Twist2 wanted = sees ? follower.command(pose, scan, {}) : follower.command(pose);
+        command = guard_command(wanted, scan);
+      }
+      pose = driven(pose, command);
+      closest_m = std::min(closest_m, distance_to_squares_m(world, pose.position()));
+    }
+    CAPTURE(trial, closest_m, pose.x_m, pose.y_m);
+    CHECK(closest_m > 0.2);
+    if (sees) CHECK(follower.is_finished());
+    if (!sees && follower.is_finished()) ++passed_blindly;
+  }
+  CHECK(passed_blindly <= 2);
 }

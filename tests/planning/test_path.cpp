@@ -69,7 +69,7 @@ TEST_CASE("A shortened path keeps clearance, ends and cost, and has fewer corner
       REQUIRE(shorter_m.back() == path_m.back());
       for (std::size_t i = 1; i < shorter_m.size(); ++i) {
         traverse<2>(belief.lattice(), shorter_m[i - 1], shorter_m[i],
-                    [&](const Index<2>& index) { REQUIRE(field.is_proper(index)); });
+                    [&](const Index<2>& index) { REQUIRE(field.is_passable(index)); });
       }
       REQUIRE(Polyline(shorter_m).length_m() <= Polyline(path_m).length_m() * (1.0 + 1e-9));
       // 2 % by slack, and what a cost sampled every half cell errs by.

@@ -40,11 +40,7 @@ class CandidateSearch {
       float& clearance_m = clearance_m_[clearance_m_.offset_of(cell)];
       clearance_m = std::max(clearance_m, static_cast<float>(params.clearance_hard_m()));
     }
-    if (!closed.none()) {
-      for (Offset cell = 0; cell < static_cast<Offset>(clearance_m_.size()); ++cell) {
-        clearance_m_[cell] = std::min(clearance_m_[cell], closed.clearance_m(clearance_m_.index_at(cell)));
-      }
-    }
+    if (!closed.none()) keep_off(closed, params);
     ways_.restart(occupancy, clearance_m_, from_m, params);
   }
 
@@ -67,6 +63,18 @@ class CandidateSearch {
   }
 
  private:
+  /// Unlike a wall, what is not allowed lies where it is drawn: nobody squeezes past it. Too near to it a cell has hardly any
+  /// clearance, but some, so that an escape from there does not lead across.
+  void keep_off(const ClosedCells<2>& closed, const TravelParams& params) {
+    const auto hard_m = static_cast<float>(params.clearance_hard_m());
+    const auto hardly_m = static_cast<float>(0.25 * clearance_m_.resolution_m());
+    for (Offset cell = 0; cell < static_cast<Offset>(clearance_m_.size()); ++cell) {
+      const float to_closed_m = closed.clearance_m(clearance_m_.index_at(cell));
+      const float keeps_m = to_closed_m < hard_m ? std::min(to_closed_m, hardly_m) : to_closed_m;
+      clearance_m_[cell] = std::min(clearance_m_[cell], keeps_m);
+    }
+  }
+
   /// Without its path.
   [[nodiscard]] Candidate candidate_for(const FrontierView& view, const Frontier<2>& frontier, const Map<Cell, 2>& map,
                                         const EntropyTable& entropy, const ExplorerParams& params) const {

@@ -167,7 +167,7 @@ class Explorer {
       }
       retreated_on_way_to_ = goal_m;
     }
-    const Twist2 wanted = follower_.command(pose);
+    const Twist2 wanted = follower_.command(pose, scan, params_.guard);
     const Twist2 allowed = guard_command(wanted, scan, params_.guard);
     const bool blocked = wanted.speed_m_per_s > 0.0 && allowed.speed_m_per_s == 0.0;
     if (!blocked) {

@@ -14,7 +14,9 @@
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/twist2.hpp"
 #include "incognita/geometry/vector.hpp"
+#include "incognita/planning/collision_guard.hpp"
 #include "incognita/planning/polyline.hpp"
+#include "incognita/planning/room_aside.hpp"
 
 namespace incognita {
 
@@ -26,6 +28,7 @@ struct FollowParams {
   double lookahead_m = 0.6;            ///< it aims at a place on the path this far ahead
   double lookahead_min_m = 0.15;       ///< or nearer, down to this,
   double deviation_max_m = 0.04;   ///< when the path or its own arc leaves the straight line there by more
+  double aside_max_m = 0.1;        ///< how far it leaves the path for the middle of a passage that the latest scan shows
   double turn_in_place_rad = 0.6;  ///< it turns in place when the place lies further aside; < pi / 2
   double goal_tolerance_m = 0.1;   ///< this near to its end the path is finished
 
@@ -38,6 +41,7 @@ struct FollowParams {
     require(std::isfinite(lookahead_m) && lookahead_m >= lookahead_min_m, "FollowParams", "lookahead_m",
             lookahead_m, "finite and >= lookahead_min_m");
     require_positive("FollowParams", "deviation_max_m", deviation_max_m);
+    require_non_negative("FollowParams", "aside_max_m", aside_max_m);
     require(turn_in_place_rad > 0.0 && turn_in_place_rad < std::numbers::pi / 2.0, "FollowParams",
             "turn_in_place_rad", turn_in_place_rad, "in (0, pi / 2)");
     require_positive("FollowParams", "goal_tolerance_m", goal_tolerance_m);
@@ -61,7 +65,38 @@ class PathFollower {
 
   /// The speeds to drive with from where the robot is; zero when the path is finished. Speed is never
   /// negative.
-  [[nodiscard]] Twist2 command(const Pose2& T_map_robot) {
+  [[nodiscard]] Twist2 command(const Pose2& T_map_robot) { return command(T_map_robot, Surroundings{}); }
+
+  /// As command(T_map_robot), but through the middle of passages so narrow that the guard would hold the robot a
+  /// little aside of it: a path from cell to cell may be off by more than they leave. `scan` is in the robot's frame,
+  /// its latest.
+  [[nodiscard]] Twist2 command(const Pose2& T_map_robot, const Scan<2>& scan, const CollisionGuardParams& guard) {
+    const double keep_m = guard.robot_radius_m + guard.creep_margin_m;
+    const double range_m = params_.lookahead_m + params_.aside_max_m + keep_m + params_.deviation_max_m;
+    return command(T_map_robot, {near_hits_m(T_map_robot, scan, range_m), keep_m});
+  }
+
+  [[nodiscard]] bool is_finished() const { return finished_; }
+
+  /// How far along the path the robot has come; never decreases.
+  [[nodiscard]] double progress_m() const { return progress_m_; }
+
+  [[nodiscard]] const Polyline& path() const { return path_; }
+
+ private:
+  /// What is around the robot, in the path's frame, and how far its centre keeps from it.
+  struct Surroundings {
+    std::vector<Eigen::Vector2d> obstacles_m;
+    double keep_m = 0.0;
+  };
+
+  /// Where to aim, as seen from the robot.
+  struct Target {
+    double distance_m;
+    double aside_rad;
+  };
+
+  [[nodiscard]] Twist2 command(const Pose2& T_map_robot, const Surroundings& around) {
     if (finished_) return {};
     const Eigen::Vector2d position = T_map_robot.position();
     progress_m_ = path_.nearest_along_m(position, progress_m_, progress_m_ + params_.lookahead_m);
@@ -72,7 +107,7 @@ class PathFollower {
       return {};
     }
 
-    const Target target = aim(T_map_robot);
+    const Target target = aim(T_map_robot, around);
     // Once begun, a turn is finished: an arc that begins far aside swings wide.
     turning_ = std::abs(target.aside_rad) > (turning_ ? 0.25 : 1.0) * params_.turn_in_place_rad;
     if (turning_) {
@@ -87,34 +122,51 @@ class PathFollower {
     return {speed_m_per_s, speed_m_per_s * curvature_per_m};
   }
 
-  [[nodiscard]] bool is_finished() const { return finished_; }
-
-  /// How far along the path the robot has come; never decreases.
-  [[nodiscard]] double progress_m() const { return progress_m_; }
-
-  [[nodiscard]] const Polyline& path() const { return path_; }
-
- private:
-  /// Where to aim, as seen from the robot.
-  struct Target {
-    double distance_m;
-    double aside_rad;
-  };
-
   /// The place on the path lookahead_m ahead, or a nearer one while the path leaves its chord too far (so a
-  /// corner is not cut) or the arc to it would (so the robot does not swing out of one).
-  [[nodiscard]] Target aim(const Pose2& T_map_robot) const {
-    for (double ahead_m = params_.lookahead_m;; ahead_m *= 0.8) {
-      ahead_m = std::max(ahead_m, params_.lookahead_min_m);
-      const Eigen::Vector2d to_target = difference(path_.point_at(progress_m_ + ahead_m), T_map_robot.position());
+  /// corner is not cut), the arc to it would (so the robot does not swing out of one), or the way there lacks the room.
+  [[nodiscard]] Target aim(const Pose2& T_map_robot, const Surroundings& around) const {
+    double ahead_m = params_.lookahead_m;
+    for (;;) {
+      const RoomyPlace place = place_at(progress_m_ + ahead_m, around);
+      const Eigen::Vector2d to_target = difference(place.position_m, T_map_robot.position());
       const double bearing_rad = std::atan2(to_target[1], to_target[0]);
       const Target target{norm(to_target), angle_between_rad(T_map_robot.yaw_rad, bearing_rad)};
       const double swing_m = 0.5 * target.distance_m * std::tan(0.5 * std::abs(target.aside_rad));
-      if (ahead_m == params_.lookahead_min_m ||
-          std::max(swing_m, corner_beside_chord_m(ahead_m)) <= params_.deviation_max_m) {
+      const bool is_near = ahead_m <= params_.lookahead_min_m;
+      if ((is_near || std::max(swing_m, corner_beside_chord_m(ahead_m)) <= params_.deviation_max_m) &&
+          has_room(T_map_robot.position(), to_target, ahead_m, around)) {
         return target;
       }
+      // Nearer than lookahead_min_m only where there is no room: from aside of a door, first to its middle.
+      ahead_m = is_near ? 0.8 * ahead_m : std::max(0.8 * ahead_m, params_.lookahead_min_m);
     }
+  }
+
+  /// The path's place so far along it, or the middle of a narrow passage that it lies in.
+  [[nodiscard]] RoomyPlace place_at(double along_m, const Surroundings& around) const {
+    const Eigen::Vector2d place_m = path_.point_at(along_m);
+    const double enough_m = around.keep_m + params_.deviation_max_m;
+    if (around.obstacles_m.empty()) return {place_m, enough_m};
+    // Across the path's direction at large: single steps from cell to cell have others.
+    const Eigen::Vector2d before_m = path_.point_at(along_m - params_.lookahead_min_m);
+    const Eigen::Vector2d along = difference(path_.point_at(along_m + params_.lookahead_min_m), before_m);
+    return roomiest_aside(place_m, along, around.obstacles_m, params_.aside_max_m, enough_m);
+  }
+
+  /// Whether the straight way to a target ahead_m further along leaves no place between by more than there is room for.
+  [[nodiscard]] bool has_room(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_target_m, double ahead_m,
+                              const Surroundings& around) const {
+    if (around.obstacles_m.empty()) return true;
+    constexpr double sample_m = 0.05;
+    const double length2_m2 = std::max(dot(to_target_m, to_target_m), 1e-12);
+    for (double along_m = sample_m; along_m < ahead_m; along_m += sample_m) {
+      const RoomyPlace place = place_at(progress_m_ + along_m, around);
+      const Eigen::Vector2d way_m = difference(place.position_m, from_m);
+      const double share = std::clamp(dot(way_m, to_target_m) / length2_m2, 0.0, 1.0);
+      const double room_m = std::max(room_step_m, place.clearance_m - around.keep_m);
+      if (distance(way_m, scaled(to_target_m, share)) > room_m) return false;
+    }
+    return true;
   }
 
   /// How far the path up to ahead_m further along leaves the straight line to there.

@@ -27,16 +27,16 @@ namespace incognita {
   return path_m;
 }
 
-/// The cost in metres of driving straight from one place to another; infinity when a cell on the way lacks
-/// the clearance that the robot needs. Sampled every half cell.
+/// The cost in metres of driving straight from one place to another; infinity when a cell on the way is not
+/// passable. Sampled every half cell.
 [[nodiscard]] inline double straight_cost_m(const TravelCostField& field, const Eigen::Vector2d& from_m,
                                             const Eigen::Vector2d& to_m) {
-  bool proper = true;
+  bool passable = true;
   traverse<2>(field.lattice(), from_m, to_m, [&](const Index<2>& index) {
-    proper = field.is_proper(index);
-    return proper;
+    passable = field.is_passable(index);
+    return passable;
   });
-  if (!proper) return std::numeric_limits<double>::infinity();
+  if (!passable) return std::numeric_limits<double>::infinity();
   const Eigen::Vector2d way_m = difference(to_m, from_m);
   const double length_m = norm(way_m);
   const double samples = std::max(1.0, std::ceil(2.0 * length_m / field.lattice().resolution_m()));
@@ -49,7 +49,7 @@ namespace incognita {
   return length_m * cost_per_m / samples;
 }
 
-/// The path with fewer corners: straight wherever that keeps the robot's clearance and costs at most 1 +
+/// The path with fewer corners: straight wherever that keeps to passable cells and costs at most 1 +
 /// `slack` times what the path itself does. Its ends stay, and so do steps where the robot lacks clearance
 /// (see TravelCostField). Throws std::invalid_argument unless slack is finite and >= 0. O(corners x the
 /// longest straight part).

@@ -36,6 +36,17 @@ struct TravelParams {
 
   [[nodiscard]] double clearance_hard_m() const { return robot_radius_m + margin_m; }
 
+  /// With this much, but less than clearance_hard_m, a cell may be passed where there is no better way, though no path
+  /// ends there: the centre of an occupied cell lies up to half a diagonal before the surface that was measured in it, so
+  /// a belief closes doors that the robot fits through. Whether it does fit is for the laser to say (see guard_command).
+  /// At least half a cell: where there is no clearance at all, nothing passes.
+  [[nodiscard]] double clearance_tight_m(double resolution_m) const {
+    return std::max(0.5 * resolution_m, robot_radius_m - 0.5 * std::numbers::sqrt2 * resolution_m);
+  }
+
+  /// Of passing such cells: more than of any with the clearance, less than of escaping.
+  [[nodiscard]] double tight_cost_per_m() const { return 0.5 * (1.0 + clearance_weight + escape_cost_per_m); }
+
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
     require_non_negative("TravelParams", "robot_radius_m", robot_radius_m);
@@ -49,7 +60,8 @@ struct TravelParams {
 };
 
 /// The cheapest ways from one place to all others: 8-connected (or 4-, see restart), never cutting a corner, through free cells
-/// with the clearance that the robot needs. When the start itself lacks it (the belief put a wall too near),
+/// with the clearance that the robot needs, and at a high cost through those that may hide a passage for it (see
+/// TravelParams). When the start itself lacks it (the belief put a wall too near),
 /// cells around it that are not occupied may be crossed, at a high cost, until the first proper one is
 /// reached. One field serves all goals. Safe to read from many threads at once.
 class TravelCostField {
@@ -82,7 +94,8 @@ class TravelCostField {
     const IndexBox<2>& box = occupancy.box();
     start_m_ = start_m;
     proper_max_ = static_cast<float>(1.0 + params.clearance_weight);
-    escape_.clear();
+    passable_max_ = static_cast<float>(params.tight_cost_per_m());
+    no_stay_.clear();
     for (Grid<float, 2>* costs : {&cost_per_m_, &cost_m_}) costs->clear_to(box.padded(1));
     step_to_.clear_to(box.padded(1));
     const Eigen::Vector2d start_cells = occupancy.lattice().to_cells(start_m);
@@ -93,7 +106,7 @@ class TravelCostField {
     rate_cells(occupancy, clearance_m, params);
     if (!is_proper(start_)) open_escape(occupancy, clearance_m, params);
     search(Adjacency::corners, 1.0, params.escape_cost_per_m);
-    for (const Index<2>& index : escape_) cost_m_.set(index, infinite);
+    for (const Offset cell : no_stay_) cost_m_[cell] = infinite;
   }
 
   /// Makes this the field of a cost per metre of any kind (Isleyen et al., (14) with the edges of footnote 2): infinity where
@@ -114,7 +127,8 @@ class TravelCostField {
     const IndexBox<2>& box = cost_per_m.box();
     start_m_ = start_m;
     proper_max_ = most;
-    escape_.clear();
+    passable_max_ = most;
+    no_stay_.clear();
     for (Grid<float, 2>* costs : {&cost_per_m_, &cost_m_}) costs->clear_to(box.padded(1));
     step_to_.clear_to(box.padded(1));
     const Eigen::Vector2d start_cells = cost_per_m.lattice().to_cells(start_m);
@@ -138,6 +152,11 @@ class TravelCostField {
   /// Whether the robot has the clearance it needs in a cell.
   [[nodiscard]] bool is_proper(const Index<2>& index) const {
     return cost_per_m_.value(index) <= proper_max_;
+  }
+
+  /// Whether ways may lead through a cell from where the robot has that clearance.
+  [[nodiscard]] bool is_passable(const Index<2>& index) const {
+    return cost_per_m_.value(index) <= passable_max_;
   }
 
   /// The cost of a metre in a cell, > 0; infinity where the robot cannot travel.
@@ -175,15 +194,20 @@ class TravelCostField {
   void rate_cells(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m,
                   const TravelParams& params) {
     const auto hard_m = static_cast<float>(params.clearance_hard_m());
+    const auto tight_m = static_cast<float>(params.clearance_tight_m(occupancy.resolution_m()));
     const auto weight = static_cast<float>(params.clearance_weight);
     const auto per_soft_m = static_cast<float>(1.0 / params.clearance_soft_m);
     const Offset width = occupancy.stride(1);
     for (Offset row = 0; row < static_cast<Offset>(occupancy.size()); row += width) {
-      float* const rated = &cost_per_m_[cost_per_m_.offset_of(occupancy.index_at(row))];
+      const Offset first = cost_per_m_.offset_of(occupancy.index_at(row));
+      float* const rated = &cost_per_m_[first];
       for (Offset i = 0; i < width; ++i) {
         const float lack = std::max(0.0F, 1.0F - clearance_m[row + i] * per_soft_m);
         const bool proper = occupancy[row + i] == Occupancy::free && clearance_m[row + i] >= hard_m;
         rated[i] = proper ? 1.0F + weight * lack * lack : infinite;
+        if (proper || occupancy[row + i] != Occupancy::free || clearance_m[row + i] < tight_m) continue;
+        rated[i] = passable_max_;
+        no_stay_.push_back(first + i);
       }
     }
   }
@@ -199,13 +223,14 @@ class TravelCostField {
       for (int x = std::max(start_[0] - reach, box.lower[0]); x < std::min(start_[0] + reach + 1, box.upper[0]); ++x) {
         const Index<2> index(x, y);
         const Eigen::Vector2d offset(x - start_[0], y - start_[1]);
-        if (norm(offset) * occupancy.resolution_m() > params.escape_radius_m || is_proper(index)) continue;
-        const bool is_open = occupancy.value(index) != Occupancy::occupied &&
-                             (is_closed || clearance_m[clearance_m.offset_of(index)] > 0.0F);
-        if (equal(index, start_) || is_open) escape_.push_back(index);
+        if (norm(offset) * occupancy.resolution_m() > params.escape_radius_m) continue;
+        const bool opens = !is_passable(index) && occupancy.value(index) != Occupancy::occupied &&
+                           (is_closed || clearance_m[clearance_m.offset_of(index)] > 0.0F);
+        if (!opens && !equal(index, start_)) continue;
+        no_stay_.push_back(cost_per_m_.offset_of(index));
+        cost_per_m_.set(index, escape);
       }
     }
-    for (const Index<2>& index : escape_) cost_per_m_.set(index, escape);
   }
 
   /// A bucket queue. Where the costs differ so much that buckets as narrow as the cheapest step would be too many, a cell may be
@@ -236,8 +261,8 @@ class TravelCostField {
         step_to_[from] |= settled;
         const float from_cost_m = cost_m_[from];
         const float from_per_m = cost_per_m_[from];
-        // Out of a place to escape from into any open cell, out of a proper one into proper ones only.
-        const float enter_max = from_per_m > proper_max_ ? from_per_m : proper_max_;
+        // Out of a place to escape from into any open cell, out of all others into passable ones only.
+        const float enter_max = std::max(from_per_m, passable_max_);
         const auto relax = [&](std::size_t step, Offset to, float half_step_m) {
           const float to_cost_m = from_cost_m + half_step_m * (from_per_m + cost_per_m_[to]);
           if (to_cost_m < cost_m_[to]) {
@@ -267,11 +292,12 @@ class TravelCostField {
 
   Eigen::Vector2d start_m_{0.0, 0.0};
   Index<2> start_{0, 0};
-  float proper_max_ = 1.0F;  ///< no proper cell costs more a metre, every place to escape from does
+  float proper_max_ = 1.0F;    ///< no proper cell costs more a metre, every other one does
+  float passable_max_ = 1.0F;  ///< no passable cell costs more a metre, every place to escape from does
   // One ring of cells larger than the belief: it is never entered, so no step needs to look whether it leaves the grid.
   Grid<float, 2> cost_per_m_;
   Grid<float, 2> cost_m_;
-  std::vector<Index<2>> escape_;   ///< what may be crossed once, to get away from the start
+  std::vector<Offset> no_stay_;    ///< what may be crossed, but is no goal
   Grid<std::uint8_t, 2> step_to_;  ///< the last step of the way to a cell, and whether it is final
 };
 
