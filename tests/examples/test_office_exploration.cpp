@@ -34,7 +34,7 @@ void check_all_complete(const Series& series) {
     const Trial& trial = series.trials[start];
     CAPTURE(series.arena->name, static_cast<int>(series.choice.strategy), start, to_string(trial.stop_reason));
     CHECK(trial.is_complete());
-    CHECK(trial.mapped_fraction() >= 0.95);
+    CHECK(trial.mapped_fraction() >= 0.98);
     CHECK(trial.collisions == 0);
     CHECK(trial.position_error_max_m < 1e-9);
   }
@@ -98,12 +98,17 @@ TEST_CASE("every strategy by the way explores both offices from every start, and
           "[.long]") {
   const std::string name = GENERATE("small", "large");
   const FrontierInformation information = GENERATE(FrontierInformation::size, FrontierInformation::big);
-  const Arena arena = arena_of(name, 8);
+#ifdef __SANITIZE_ADDRESS__
+  constexpr std::size_t starts = 1;  // it takes a quarter of an hour with all
+#else
+  constexpr std::size_t starts = 8;
+#endif
+  const Arena arena = arena_of(name, starts);
   const Series persistent = run_series(arena, {Strategy::persistent, information, NavigationCost::geodesic});
   const Series last_mile = run_series(arena, {Strategy::last_mile, information, NavigationCost::geodesic});
   const Series online = run_series(arena, {Strategy::online, information, NavigationCost::geodesic});
   for (const Series* series : {&persistent, &last_mile, &online}) check_all_complete(*series);
-  CHECK(mean_saving_m(persistent, last_mile) > 0.0);
+  if (starts > 1) CHECK(mean_saving_m(persistent, last_mile) > 0.0);
 }
 
 }  // namespace office_exploration

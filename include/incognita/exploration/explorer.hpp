@@ -250,8 +250,14 @@ class Explorer {
     must_decide_ = false;
   }
 
+  void set_out() {
+    goal_since_s_ = time_s_;
+    way_max_m_ = 0.0;
+  }
+
   void drive_to(std::vector<Candidate> candidates) {
     decision_ = {time_s_, std::move(candidates), std::nullopt};
+    way_max_m_ = std::max(way_max_m_, decision_.chosen()->path.length_m());
     follower_ = PathFollower(decision_.chosen()->path.points_m(), params_.follow);
     // Where the robot has been it may go though the belief has a wall there: deciding anew would change nothing.
     path_was_clear_ = !path_is_blocked();
@@ -265,12 +271,12 @@ class Explorer {
 
   bool head_for_the_start() {
     const Index<2> start = map().lattice().index_of(Eigen::Vector2d::Zero());
-    if (const Candidate* const under_way = decision_.chosen()) {
-      if (time_s_ > goal_since_s_ + patience_s(*under_way)) return end(StopReason::nothing_reachable);
+    if (decision_.chosen() != nullptr) {
+      if (is_overdue()) return end(StopReason::nothing_reachable);
       if (!must_decide_ && follower_.is_finished()) return end(StopReason::returned);
       if (!std::exchange(must_decide_, false) && !path_was_closed()) return false;
     } else {
-      goal_since_s_ = time_s_;
+      set_out();
     }
     failed_.reset();
     if (equal(map().lattice().index_of(belief().pose.position()), start)) return end(StopReason::returned);
@@ -290,7 +296,7 @@ class Explorer {
     if (std::exchange(must_decide_, false)) return true;
     // Arrived, what is still to be seen may be what lay behind; only if nothing was learned, the goal has told all that it can.
     const bool is_in_vain = follower_.is_finished() && learned_.count() == learned_at_decision_ && is_informative(goal);
-    if (is_in_vain || time_s_ > goal_since_s_ + patience_s(goal)) {
+    if (is_in_vain || is_overdue()) {
       failed_ = goal.frontier_m;
       return true;
     }
@@ -327,9 +333,10 @@ class Explorer {
     return is_enough(left) || is_enough(frontier_.cells());
   }
 
-  /// How long a drive may take: three times as long as at full speed, and time to turn.
-  [[nodiscard]] double patience_s(const Candidate& goal) const {
-    return 20.0 + 3.0 * goal.path.length_m() / params_.follow.speed_max_m_per_s;
+  /// A drive may take three times as long as at full speed, and time to turn: by the longest way since it set out, as ways that are
+  /// planned anew become shorter while the time passes.
+  [[nodiscard]] bool is_overdue() const {
+    return time_s_ > goal_since_s_ + 20.0 + 3.0 * way_max_m_ / params_.follow.speed_max_m_per_s;
   }
 
   /// Whether a cell became occupied in the way of the rest of the path.
@@ -368,7 +375,7 @@ class Explorer {
     const Candidate* const before = decision_.chosen();
     const bool is_same_goal =
         before != nullptr && distance(before->frontier_m, candidates.front().frontier_m) <= params_.set_aside.radius_m;
-    if (!is_same_goal) goal_since_s_ = time_s_;
+    if (!is_same_goal) set_out();
     drive_to(std::move(candidates));
     return true;
   }
@@ -416,6 +423,7 @@ class Explorer {
   std::size_t learned_at_decision_ = 0;  // how many were at the last decision
   double time_s_ = 0.0;
   double found_s_ = 0.0;      // when the filter was last not lost
+  double way_max_m_ = 0.0;      // of the ways to it since
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive
 };
 
