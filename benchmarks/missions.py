@@ -33,7 +33,7 @@ def mission(program, plan, variant, seed):
 
 
 def shown(runs, key, form):
-    return " ".join("-" if run[key] is None else form.format(run[key]) for run in runs).replace("0.", ".")
+    return " ".join("-" if run[key] is None else form.format(run[key]).removeprefix("0") or "0" for run in runs)
 
 
 def main():
@@ -64,6 +64,8 @@ def main():
             pairs = [(results[plan, variant, seed][key], results[plan, "nearest", seed][key])
                      for plan in arguments.plans for seed in range(1, arguments.seeds + 1)]
             pairs = [(ours, nearest) for ours, nearest in pairs if ours and nearest]
+            if not pairs:
+                continue
             print(f"\nWay {what}, by {GOES_BY.get(variant, 'big')} against by nearness: mean of the ratios "
                   f"{statistics.mean(ours / nearest for ours, nearest in pairs):.2f}, ratio of the means "
                   f"{sum(ours for ours, _ in pairs) / sum(nearest for _, nearest in pairs):.2f}.")

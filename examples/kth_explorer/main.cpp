@@ -64,7 +64,10 @@ incognita::Pose2 start_pose(const Options& options, const incognita::World& floo
     if (!options.start_m) return random_start(floor, options.robot_radius_m, random);
     check_start(floor, *options.start_m, options.robot_radius_m);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument((options.start_m ? "--start" : options.map_file) + ": " + error.what());
+    const std::string map = options.map_file.empty() ? "the embedded floor plan" : options.map_file;
+    const bool is_part = options.bounds_m || !options.no_go_file.empty();
+    throw std::invalid_argument((options.start_m ? "--start" : map) + ": " + error.what() +
+                                (is_part ? " (what --bounds and --no-go close is an obstacle)" : ""));
   }
   return {options.start_m->x(), options.start_m->y(), random.uniform(-std::numbers::pi, std::numbers::pi)};
 }
@@ -90,7 +93,7 @@ void print_progress(const ProgressRecord& progress, double duration_s) {
 
 void print_table(const nlohmann::ordered_json& metrics, const std::filesystem::path& folder) {
   if (isatty(STDOUT_FILENO) == 1) std::cout << '\n';
-  for (const char* key : {"stop_reason", "duration_s", "explored_fraction", "explored_area_m2", "distance_m", "collisions",
+  for (const char* key : {"stop_reason", "duration_s", "explored_fraction", "explored_area_m2", "distance_m", "returned", "collisions",
                           "decisions", "translation_rmse_m", "heading_rmse_rad", "nees_mean", "map_error",
                           "wall_time_s", "real_time_factor"}) {
     const auto& value = metrics.at(key);

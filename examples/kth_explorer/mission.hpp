@@ -57,7 +57,8 @@ struct MissionParams {
   bool returns;  ///< to the start, in the end
 };
 
-/// All that a mission leaves, in the robot's start frame. The way back is in both trajectories and in return_distance_m alone.
+/// All that a mission leaves, in the robot's start frame. The way back is in both trajectories, in the collisions and in
+/// return_distance_m; all else is of the exploration.
 struct MissionRecord {
   std::vector<incognita::TimedPose2> estimated;
   std::vector<incognita::TimedPose2> truth;
@@ -138,18 +139,18 @@ template <class Explorer>
                                   seconds_since(start)});
     }
   };
-  const auto on_scan = [&] {
-    observe_and_decide();
+  const auto remember_poses = [&] {
     record.estimated.push_back({simulator.time_s(), explorer.belief().pose});
     record.truth.push_back({simulator.time_s(), simulator.T_start_robot()});
   };
-  const auto remember_error = [&] {
+  const auto on_scan = [&] {
+    observe_and_decide();
+    remember_poses();
+  };
+  examples::drive(explorer, simulator, params.duration_s, on_scan, [&] {
     const Pose2 truth = simulator.T_start_robot();
     record.trajectory_error.add(explorer.belief().pose, truth);
     if (is_estimated()) record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
-  };
-  examples::drive(explorer, simulator, params.duration_s, on_scan, [&] {
-    remember_error();
     if (simulator.steps() % 50 == 0) {
       record.progress.push_back(progress());
       if (report) report(record.progress.back());
@@ -162,13 +163,6 @@ template <class Explorer>
   record.duration_s = simulator.time_s();
   record.wall_time_s = seconds_since(begin);
 
-  if (params.returns) {
-    explorer.return_to_start();
-    examples::drive(explorer, simulator, 2.0 * params.duration_s, on_scan, remember_error);
-    record.has_returned = explorer.stopped() == StopReason::returned;
-    record.return_distance_m = simulator.distance_m() - record.distance_m;
-  }
-  record.collisions = simulator.collisions();
   record.explored_fraction = last.explored_fraction;
   record.floor_area_m2 = coverage.floor_area_m2();
   record.map_uncertainty_bits_per_step = map_uncertainty_bits_per_step(last.entropy_drop_nats, 0.0, simulator.steps());
@@ -180,6 +174,20 @@ template <class Explorer>
     std::vector<Eigen::Vector2d>& cells_m = record.last_frontiers.emplace_back();
     for (const Index<2>& cell : frontier.cells) cells_m.push_back(explorer.map().lattice().center_m(cell));
   }
+
+  if (params.returns) {
+    constexpr double longest_s = 3600.0;  // the explorer gives up long before
+    explorer.return_to_start();
+    const auto observe_and_go_on = [&] {
+      explorer.observe(simulator.scan());
+      explorer.decide();
+      remember_poses();
+    };
+    examples::drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {});
+    record.has_returned = explorer.stopped() == StopReason::returned;
+    record.return_distance_m = simulator.distance_m() - record.distance_m;
+  }
+  record.collisions = simulator.collisions();
   return record;
 }
 

@@ -75,7 +75,7 @@ struct Options {
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   app.add_option("--strategy", options.strategy,
-                 "plan anew at a viewpoint, as soon as it is no longer informative, or every second if the map has changed")
+                 "plan anew at a viewpoint, as soon as it is no longer informative, or every second if enough was learned")
       ->check(CLI::IsMember({"persistent", "last-mile", "online"}))
       ->capture_default_str();
   app.add_option("--information", options.information,
@@ -86,7 +86,7 @@ struct Options {
   app.add_option("--navigation", options.navigation, "what that is divided by: nothing, the straight line, or the cost of the way")
       ->check(CLI::IsMember({"uniform", "euclidean", "geodesic"}))
       ->capture_default_str();
-  app.add_option("--duration", options.duration_s, "longest mission, in simulated seconds, > 0")
+  app.add_option("--duration", options.duration_s, "longest exploration, in simulated seconds, > 0; the way back comes after it")
       ->type_name("S")
       ->capture_default_str();
   app.add_option("--seed", options.seed, "of the noise and of the start")
@@ -96,7 +96,7 @@ struct Options {
   app.add_option("--start", start, "start in the map file's frame, in metres; without it, a seeded place in the largest region")
       ->type_name("X,Y")
       ->check(examples::refuse_empty);
-  app.add_option("--radius", options.robot_radius_m, "of the robot, in metres, > 0: what it cannot reach is not gone to")
+  app.add_option("--radius", options.robot_radius_m, "of the robot, in metres, in (0, 5]: what it cannot reach is not gone to")
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--bounds", bounds, "box in the map file's frame, in metres, that the robot stays in and explores")

@@ -114,6 +114,9 @@ grep -q "$work" one/metrics.json && fail "a path is in metrics.json"
 # A part of the floor, with a pose that is known, and back.
 run part --threads 1 --filter none --bounds 17,8,40,16 --no-go ../inputs/no_go.txt --radius 0.25 --return
 grep -q '"returned": true' part/metrics.json || fail "the robot has not returned: $(grep returned part/metrics.json)"
+run without --threads 1 --filter none --bounds 17,8,40,16 --no-go ../inputs/no_go.txt --radius 0.25
+[ "$(metrics part | grep -vE '"(returned|return_distance_m)"')" = "$(metrics without | grep -vE '"(returned|return_distance_m)"')" ] ||
+  fail "the way back is in the metrics"
 grep -q '"nees_mean": null' part/metrics.json || fail "a known pose has a NEES: $(grep nees part/metrics.json)"
 grep -q '"returned": null' one/metrics.json || fail "returned though not asked to: $(grep returned one/metrics.json)"
 # 20 s of exploration, and the way back.

@@ -72,5 +72,7 @@ TEST_CASE("What is no polygon is refused by name", "[geometry]") {
   CHECK_THROWS_WITH(require_polygon("here", "fence", two), Catch::Contains("here: fence is 2") && Catch::Contains("three corners"));
   const Polygon broken{{0.0, 0.0}, {1.0, std::nan("")}, {1.0, 1.0}};
   CHECK_THROWS_WITH(require_polygon("here", "fence", broken), Catch::Contains("nan") && Catch::Contains("finite"));
+  const Polygon far{{0.0, 0.0}, {1e200, 0.0}, {1.0, 1.0}};
+  CHECK_THROWS_WITH(require_polygon("here", "fence", far), Catch::Contains("1e+200"));
   CHECK_NOTHROW(require_polygon("here", "fence", Polygon{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}));
 }

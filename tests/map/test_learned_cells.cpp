@@ -9,6 +9,22 @@
 
 using namespace incognita;
 
+TEST_CASE("What a map knew before is not learned", "[map]") {
+  Map<LogOdds> map({0.2, 0.5});
+  Scan<2> scan(circular_beams(60, 4.0));
+  for (int n = 0; n < 5; ++n) map.update(scan, {}, Eigen::Matrix3d::Zero());
+  OccupancyLayer<2> occupancy(map.lattice());
+  LearnedCells<2> learned(map.lattice());
+  occupancy.rebuild(map);
+  learned.follow(occupancy);
+  const std::size_t before = learned.count();
+  CHECK(before > 500);
+  map.update(scan, {}, Eigen::Matrix3d::Zero());
+  occupancy.follow(map);
+  learned.follow(occupancy);
+  CHECK(learned.count() == before);
+}
+
 TEST_CASE("Cells are learned once, however often they come and go") {
   Random random(1);
   Map<LogOdds> map({0.2, 0.5});

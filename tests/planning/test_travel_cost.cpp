@@ -272,6 +272,8 @@ TEST_CASE("A robot does not escape through what is closed to it, but gets out of
   const TravelCostField within(belief, clearance_m, {0.35, 0.55});
   REQUIRE(within.reaches({8, 5}));
   REQUIRE_FALSE(within.reaches({3, 5}));
+  // Nor from a place that the belief has a wall in.
+  REQUIRE_FALSE(TravelCostField(belief, clearance_m, {0.05, 0.55}).reaches({8, 5}));
 }
 
 TEST_CASE("A robot in a cell that the belief calls occupied gets away", "[planning]") {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,25 @@ class CandidateSearch {
 
   /// The way to a cell that is reached, with few corners.
   [[nodiscard]] Polyline path_to(const Index<2>& cell) const { return Polyline(shorten_path(ways_, find_path(ways_, cell))); }
+
+  /// The cell within a distance of a place that is nearest to it of those that are reached; the first in storage order of equals.
+  [[nodiscard]] std::optional<Index<2>> nearest_reached(const Eigen::Vector2d& place_m, double within_m) const {
+    const Lattice<2>& lattice = ways_.lattice();
+    if (const Index<2> cell = lattice.index_of(place_m); ways_.reaches(cell)) return cell;
+    const Box<Eigen::Vector2d> around{place_m, place_m};
+    const IndexBox<2> box = lattice.cells_of(around.padded(within_m));
+    std::optional<Index<2>> nearest;
+    double nearest_m = within_m;
+    for (int y = box.lower[1]; y < box.upper[1]; ++y) {
+      for (int x = box.lower[0]; x < box.upper[0]; ++x) {
+        const double away_m = distance(lattice.center_m({x, y}), place_m);
+        if (away_m > nearest_m || (nearest && away_m == nearest_m) || !ways_.reaches({x, y})) continue;
+        nearest = Index<2>(x, y);
+        nearest_m = away_m;
+      }
+    }
+    return nearest;
+  }
 
   /// The candidates that views of frontiers make, the highest utility first, at most candidates_max unless none of these is worth
   /// going to. By the gain of paths those that gain too little are left out.

@@ -89,10 +89,10 @@ class Explorer {
       retrace();
     } else {
       occupancy_.follow(map());
+      learned_.follow(occupancy_);
       closed_.grow_to_include(occupancy_.grid().box());
       frontier_.follow(occupancy_, closed_bits());
     }
-    learned_.follow(occupancy_);
     reached_ = enclosing_box(reached_, cells_in_reach(map().lattice(), scan, belief().pose, map().hit_push_m()));
     extend_trail(belief().pose.position());
     return last_scan_.scan;
@@ -112,13 +112,15 @@ class Explorer {
   }
 
   /// Goes on with what a pause has interrupted; else explores, anew where it had ended or was on its way back: goals that were
-  /// given up are then tried again.
+  /// given up are then tried again. duration_max_s goes on counting, so that out_of_time is final.
   void start() {
     if (is_paused_) {
       is_paused_ = false;
       goal_since_s_ += time_s_ - paused_s_;
       unblocked_s_ = time_s_;
-      doubt_way();  // it may have been moved
+      // It may have been moved, and has yet to find out where.
+      found_s_ = time_s_;
+      doubt_way();
     } else if (decision_.stopped || is_returning_) {
       drop_goal();
       is_returning_ = false;
@@ -127,9 +129,10 @@ class Explorer {
     }
   }
 
-  /// Stands still and decides nothing until start() is called. Scans go on to correct the pose and the map.
+  /// Stands still and decides nothing until start() is called. Scans go on to correct the pose and the map. Nothing happens after
+  /// an end.
   void pause() {
-    if (is_paused_) return;
+    if (is_paused_ || decision_.stopped) return;
     is_paused_ = true;
     paused_s_ = time_s_;
   }
@@ -140,8 +143,10 @@ class Explorer {
     if (!decision_.stopped) end(StopReason::stopped);
   }
 
-  /// Gives up exploring, or an end, and drives to where the robot started: stopped() is then not set until it is there (returned),
-  /// cannot get there (nothing_reachable), or is lost. duration_max_s does not count on the way.
+  /// Gives up exploring, or an end, and drives to where the robot started, the map's origin: stopped() is then not set until it is
+  /// there (returned; to follow.goal_tolerance_m, or to travel.escape_radius_m where the belief has no room for its body any nearer),
+  /// cannot get there in time (nothing_reachable), or is lost. Meanwhile decision() has one candidate, the way back, of no frontier.
+  /// duration_max_s does not count on the way.
   void return_to_start() {
     is_paused_ = false;
     is_returning_ = true;
@@ -150,6 +155,7 @@ class Explorer {
   }
 
   [[nodiscard]] bool is_paused() const { return is_paused_; }
+  /// Whether it is on its way back to the start; no more when that has ended.
   [[nodiscard]] bool is_returning() const { return is_returning_; }
 
   /// The speeds that follow the chosen path, slowed down before what `scan`, the latest, shows. Zero without a goal and in a pause.
@@ -172,7 +178,7 @@ class Explorer {
     const bool blocked = wanted.speed_m_per_s > 0.0 && allowed.speed_m_per_s == 0.0;
     if (!blocked) {
       unblocked_s_ = time_s_;
-    } else if (time_s_ - unblocked_s_ > params_.blocked_max_s) {
+    } else if (time_s_ - unblocked_s_ > params_.blocked_max_s && may_retreat()) {
       retreat_.emplace(pose, scan, params_.guard, params_.retreat);
     }
     return allowed;
@@ -209,8 +215,16 @@ class Explorer {
 
   void rebuild_layers() {
     occupancy_.rebuild(map());
+    learned_.follow(occupancy_);
     closed_.grow_to_include(occupancy_.grid().box());
     frontier_.rebuild(occupancy_, closed_bits());
+  }
+
+  /// A retreat knows only what the scan shows, so not beside what is not allowed.
+  [[nodiscard]] bool may_retreat() const {
+    const Index<2> cell = map().lattice().index_of(belief().pose.position());
+    const double room_m = params_.travel.clearance_hard_m() + params_.retreat.distance_m;
+    return closed_.none() || static_cast<double>(closed_.clearance_m(cell)) >= room_m;
   }
 
   void extend_trail(const Eigen::Vector2d& to) {
@@ -238,6 +252,7 @@ class Explorer {
   }
 
   bool end(StopReason reason) {
+    is_returning_ = false;
     decision_ = {time_s_, {}, reason};
     return true;
   }
@@ -246,6 +261,7 @@ class Explorer {
     decision_ = {time_s_, {}, std::nullopt};
     follower_ = PathFollower();
     retreat_.reset();
+    retreated_on_way_to_.reset();
     failed_.reset();
     must_decide_ = false;
   }
@@ -263,6 +279,12 @@ class Explorer {
     path_was_clear_ = !path_is_blocked();
   }
 
+  /// By command() or by other means.
+  [[nodiscard]] bool has_arrived() const {
+    const Eigen::Vector2d& goal_m = decision_.chosen()->goal_m();
+    return follower_.is_finished() || distance(belief().pose.position(), goal_m) <= params_.follow.goal_tolerance_m;
+  }
+
   /// Whether something has come in the way since it was last asked.
   [[nodiscard]] bool path_was_closed() {
     const bool was_clear = std::exchange(path_was_clear_, !path_is_blocked());
@@ -270,22 +292,25 @@ class Explorer {
   }
 
   bool head_for_the_start() {
-    const Index<2> start = map().lattice().index_of(Eigen::Vector2d::Zero());
+    const Eigen::Vector2d start_m(0.0, 0.0);
     if (decision_.chosen() != nullptr) {
       if (is_overdue()) return end(StopReason::nothing_reachable);
-      if (!must_decide_ && follower_.is_finished()) return end(StopReason::returned);
+      if (!must_decide_ && has_arrived()) return end(StopReason::returned);
       if (!std::exchange(must_decide_, false) && !path_was_closed()) return false;
     } else {
       set_out();
     }
     failed_.reset();
-    if (equal(map().lattice().index_of(belief().pose.position()), start)) return end(StopReason::returned);
+    if (distance(belief().pose.position(), start_m) <= params_.follow.goal_tolerance_m) return end(StopReason::returned);
     search_ways();
-    if (!search_.ways().reaches(start)) return end(StopReason::nothing_reachable);
+    const std::optional<Index<2>> cell = search_.nearest_reached(start_m, params_.travel.escape_radius_m);
+    if (!cell) return end(StopReason::nothing_reachable);
+    std::vector<Eigen::Vector2d> path_m = search_.path_to(*cell).points_m();
+    if (equal(*cell, map().lattice().index_of(start_m))) path_m.back() = start_m;
     Candidate back;
-    back.viewpoint = start;
-    back.path = search_.path_to(start);
-    back.navigation_cost = static_cast<double>(search_.ways().cost_m(start));
+    back.viewpoint = *cell;
+    back.path = Polyline(std::move(path_m));
+    back.navigation_cost = static_cast<double>(search_.ways().cost_m(*cell));
     drive_to({back});
     return true;
   }
@@ -295,12 +320,12 @@ class Explorer {
     const Candidate& goal = *decision_.chosen();
     if (std::exchange(must_decide_, false)) return true;
     // Arrived, what is still to be seen may be what lay behind; only if nothing was learned, the goal has told all that it can.
-    const bool is_in_vain = follower_.is_finished() && learned_.count() == learned_at_decision_ && is_informative(goal);
+    const bool is_in_vain = has_arrived() && learned_.count() == learned_at_decision_ && is_informative(goal);
     if (is_in_vain || is_overdue()) {
       failed_ = goal.frontier_m;
       return true;
     }
-    if (follower_.is_finished() || path_was_closed()) return true;
+    if (has_arrived() || path_was_closed()) return true;
     if (params_.strategy == Strategy::persistent || time_s_ < asked_s_ + params_.decision_interval_s) return false;
     // No switch without anything learned: planning anew could only swing. What is not worth going to is not worth a switch either.
     const bool is_online = params_.strategy == Strategy::online;
@@ -357,7 +382,10 @@ class Explorer {
     if (failed_) set_aside_.add(*failed_, occupancy);
     failed_.reset();
     const std::vector<Frontier<2>> frontiers = this->frontiers();
-    if (frontiers.empty()) return end(StopReason::complete);
+    if (frontiers.empty()) {
+      const bool is_outside = !closed_.none() && closed_.bits().get(map().lattice().index_of(belief().pose.position()));
+      return end(is_outside ? StopReason::nothing_reachable : StopReason::complete);
+    }
 
     search_ways();
     std::vector<FrontierView> views =
@@ -418,12 +446,12 @@ class Explorer {
   bool is_returning_ = false;
   double paused_s_ = 0.0;       // when it was paused
   double goal_since_s_ = 0.0;   // when the chosen frontier was chosen first, or the way back was taken
+  double way_max_m_ = 0.0;      // the longest of the ways planned to it since
   double asked_s_ = 0.0;        // when the goal was last asked whether it serves
   std::size_t learned_then_ = 0;         // how many cells were then
   std::size_t learned_at_decision_ = 0;  // how many were at the last decision
   double time_s_ = 0.0;
   double found_s_ = 0.0;      // when the filter was last not lost
-  double way_max_m_ = 0.0;      // of the ways to it since
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive
 };
 

@@ -27,7 +27,7 @@ struct ExplorerParams {
   RetreatParams retreat;
   GainParams gain;
   SetAsideParams set_aside;
-  AllowedArea area;                        ///< in the map's frame: no path leaves it, and what lies outside is not asked for
+  AllowedArea area;                        ///< in the map's frame; the start must lie in it, with clearance. No path leaves it
   Strategy strategy = Strategy::last_mile;
   FrontierInformation information = FrontierInformation::big;
   NavigationCost navigation = NavigationCost::geodesic;

@@ -16,7 +16,7 @@ enum class FrontierInformation {
   size,     ///< its cells, in square metres (Table II)
   entropy,  ///< of its cells (Table II)
   big,      ///< the information gain of the path to its viewpoint (Seo et al., (16); BIG of (18) with a Behavioral entropy)
-  log_big   ///< ln(1 + big / the least gain worth going for): what is at hand is seen before what is large, docs/exploration.md
+  log_big   ///< ln(1 + big / the least gain worth going for, or else a cell's): what is at hand is seen before what is large, docs/exploration.md
 };
 
 /// Whether it is told by the path to the viewpoint.

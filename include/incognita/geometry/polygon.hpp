@@ -19,12 +19,14 @@ namespace incognita {
 /// must be crossed to leave.
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// Throws std::invalid_argument unless a polygon has three corners or more and all are finite.
+/// Throws std::invalid_argument unless a polygon has three corners or more, none further than 1e9 from 0 along an axis.
 template <class PolygonType>
 void require_polygon(std::string_view where, std::string_view field, const PolygonType& polygon) {
   require(polygon.size() >= 3, where, field, static_cast<double>(polygon.size()), "three corners or more");
   for (const auto& corner : polygon) {
-    for (int axis = 0; axis < 2; ++axis) require(std::isfinite(corner[axis]), where, field, corner[axis], "finite");
+    for (int axis = 0; axis < 2; ++axis) {
+      require(std::abs(corner[axis]) <= 1e9, where, field, corner[axis], "finite, within 1e9 of 0");
+    }
   }
 }
 

@@ -10,14 +10,14 @@
 
 namespace incognita {
 
-/// What lies in the bounds and in no no-go polygon. A plain value; by default, everywhere.
+/// What lies in the bounds and in no no-go polygon, in metres in a frame of the user's choice. A plain value; by default, everywhere.
 struct AllowedArea {
   Polygon bounds;              ///< no corners: no bounds
   std::vector<Polygon> no_go;
 
   [[nodiscard]] bool is_everywhere() const { return bounds.empty() && no_go.empty(); }
 
-  /// Throws std::invalid_argument for polygons with fewer than three corners or with one that is not finite.
+  /// Throws std::invalid_argument as require_polygon does.
   void validate() const {
     if (!bounds.empty()) require_polygon("AllowedArea", "bounds", bounds);
     for (const Polygon& polygon : no_go) require_polygon("AllowedArea", "no_go", polygon);

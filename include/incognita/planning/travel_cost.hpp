@@ -62,8 +62,8 @@ struct TravelParams {
 /// The cheapest ways from one place to all others: 8-connected (or 4-, see restart), never cutting a corner, through free cells
 /// with the clearance that the robot needs, and at a high cost through those that may hide a passage for it (see
 /// TravelParams). When the start itself lacks it (the belief put a wall too near),
-/// cells around it that are not occupied may be crossed, at a high cost, until the first proper one is
-/// reached. One field serves all goals. Safe to read from many threads at once.
+/// cells around it that are not occupied and have some clearance may be crossed, at a high cost, until the first is reached that ways
+/// lead through; from a start that has none, though free, also those without. One field serves all goals. Safe to read from many threads at once.
 class TravelCostField {
  public:
   /// Reaches nothing.
@@ -154,7 +154,7 @@ class TravelCostField {
     return cost_per_m_.value(index) <= proper_max_;
   }
 
-  /// Whether ways may lead through a cell from where the robot has that clearance.
+  /// Whether ways may lead through a cell: a proper one, or one that may hide a passage.
   [[nodiscard]] bool is_passable(const Index<2>& index) const {
     return cost_per_m_.value(index) <= passable_max_;
   }
@@ -218,7 +218,8 @@ class TravelCostField {
         std::min(params.escape_radius_m / occupancy.resolution_m(), static_cast<double>(occupancy.size())));
     const IndexBox<2>& box = occupancy.box();
     // Where there is no clearance at all, a place that is closed to the robot, it may go only to get out of such a place.
-    const bool is_closed = clearance_m[clearance_m.offset_of(start_)] == 0.0F;
+    const bool is_closed =
+        clearance_m[clearance_m.offset_of(start_)] == 0.0F && occupancy.value(start_) != Occupancy::occupied;
     for (int y = std::max(start_[1] - reach, box.lower[1]); y < std::min(start_[1] + reach + 1, box.upper[1]); ++y) {
       for (int x = std::max(start_[0] - reach, box.lower[0]); x < std::min(start_[0] + reach + 1, box.upper[0]); ++x) {
         const Index<2> index(x, y);
