@@ -15,6 +15,7 @@
 #include "incognita/exploration/explorer_params.hpp"
 #include "incognita/exploration/frontier_information.hpp"
 #include "incognita/exploration/frontier_view.hpp"
+#include "incognita/exploration/set_aside.hpp"
 #include "incognita/grid/distance_transform.hpp"
 #include "incognita/planning/closed_cells.hpp"
 #include "incognita/planning/path.hpp"
@@ -31,9 +32,9 @@ class CandidateSearch {
 
   /// Makes ways() those from a place. Where the robot has been, on the cells of its trail, its body fits, however tight the belief
   /// draws the place: no door closes behind it. Where it stands is left as drawn: from a tight place the search knows a way out,
-  /// from one with room that has none around it does not. O(cells).
+  /// from one with room that has none around it does not. What only may be a passage is none in a shut place. O(cells).
   void search_ways(const OccupancyGrid<2>& occupancy, const std::vector<Index<2>>& trail, const ClosedCells<2>& closed,
-                   const Eigen::Vector2d& from_m, const TravelParams& params) {
+                   const SetAsidePlaces& shut, const Eigen::Vector2d& from_m, const TravelParams& params) {
     distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; }, clearance_m_);
     const Index<2> here = occupancy.lattice().index_of(from_m);
     for (const Index<2>& cell : trail) {
@@ -41,6 +42,7 @@ class CandidateSearch {
       float& clearance_m = clearance_m_[clearance_m_.offset_of(cell)];
       clearance_m = std::max(clearance_m, static_cast<float>(params.clearance_hard_m()));
     }
+    if (!shut.empty()) shut_passages(occupancy, shut, params);
     if (!closed.none()) keep_off(closed, params);
     ways_.restart(occupancy, clearance_m_, from_m, params);
   }
@@ -83,14 +85,26 @@ class CandidateSearch {
   }
 
  private:
+  void shut_passages(const OccupancyGrid<2>& occupancy, const SetAsidePlaces& shut, const TravelParams& params) {
+    const auto hard_m = static_cast<float>(params.clearance_hard_m());
+    const auto tight_m = static_cast<float>(params.clearance_tight_m(clearance_m_.resolution_m()));
+    for (Offset cell = 0; cell < static_cast<Offset>(clearance_m_.size()); ++cell) {
+      float& clearance_m = clearance_m_[cell];
+      if (clearance_m < tight_m || clearance_m >= hard_m) continue;
+      if (shut.contains(occupancy.lattice().center_m(clearance_m_.index_at(cell)), occupancy)) clearance_m = hardly_m();
+    }
+  }
+
+  /// Too little for any passage, yet more than where there is no clearance at all.
+  [[nodiscard]] float hardly_m() const { return static_cast<float>(0.25 * clearance_m_.resolution_m()); }
+
   /// Unlike a wall, what is not allowed lies where it is drawn: nobody squeezes past it. Too near to it a cell has hardly any
   /// clearance, but some, so that an escape from there does not lead across.
   void keep_off(const ClosedCells<2>& closed, const TravelParams& params) {
     const auto hard_m = static_cast<float>(params.clearance_hard_m());
-    const auto hardly_m = static_cast<float>(0.25 * clearance_m_.resolution_m());
     for (Offset cell = 0; cell < static_cast<Offset>(clearance_m_.size()); ++cell) {
       const float to_closed_m = closed.clearance_m(clearance_m_.index_at(cell));
-      const float keeps_m = to_closed_m < hard_m ? std::min(to_closed_m, hardly_m) : to_closed_m;
+      const float keeps_m = to_closed_m < hard_m ? std::min(to_closed_m, hardly_m()) : to_closed_m;
       clearance_m_[cell] = std::min(clearance_m_[cell], keeps_m);
     }
   }

@@ -64,6 +64,8 @@ class Explorer {
         closed_(slam_.map().lattice(), params.area),
         search_(slam_.map().lattice()),
         set_aside_(params.set_aside),
+        retreats_(params.set_aside),
+        shut_passages_(params.set_aside),
         reached_(slam_.map().grid().box()) {
     params_.validate();
     static_cast<void>(visibility());  // refuses a range that cells as large as the map's leave nothing of
@@ -124,7 +126,7 @@ class Explorer {
     } else if (decision_.stopped || is_returning_) {
       drop_goal();
       is_returning_ = false;
-      set_aside_ = SetAsidePlaces(params_.set_aside);
+      for (SetAsidePlaces* places : {&set_aside_, &retreats_, &shut_passages_}) *places = SetAsidePlaces(params_.set_aside);
       found_s_ = time_s_;
     }
   }
@@ -166,12 +168,7 @@ class Explorer {
       if (!retreat_->is_over(pose)) return retreat_->command(pose, scan);
       retreat_.reset();
       must_decide_ = true;
-      // A second retreat on the way to one goal means that its way is too tight.
-      const Eigen::Vector2d& goal_m = decision_.chosen()->frontier_m;
-      if (retreated_on_way_to_ && distance(*retreated_on_way_to_, goal_m) <= params_.set_aside.radius_m) {
-        failed_ = goal_m;
-      }
-      retreated_on_way_to_ = goal_m;
+      learn_from_retreat();
     }
     const Twist2 wanted = follower_.command(pose, scan, params_.guard);
     const Twist2 allowed = guard_command(wanted, scan, params_.guard);
@@ -261,9 +258,33 @@ class Explorer {
     decision_ = {time_s_, {}, std::nullopt};
     follower_ = PathFollower();
     retreat_.reset();
-    retreated_on_way_to_.reset();
     failed_.reset();
     must_decide_ = false;
+  }
+
+  /// A second retreat from the same passage, or on the way to the same goal where there is none, means that the robot does not get
+  /// through. Passages, not goals: there may be dozens of goals behind one.
+  void learn_from_retreat() {
+    const OccupancyGrid<2>& occupancy = occupancy_.grid();
+    const std::optional<Eigen::Vector2d> passage_m = passage_ahead_m();
+    const Eigen::Vector2d place_m = passage_m.value_or(decision_.chosen()->frontier_m);
+    if (!retreats_.contains(place_m, occupancy)) {
+      retreats_.add(place_m, occupancy);
+    } else if (passage_m) {
+      shut_passages_.add(place_m, occupancy);
+    } else {
+      failed_ = place_m;
+    }
+  }
+
+  /// Where the path ahead leads through cells that only may be a passage; none where it has room.
+  [[nodiscard]] std::optional<Eigen::Vector2d> passage_ahead_m() const {
+    const double end_m = follower_.progress_m() + params_.follow.lookahead_m;
+    for (double along_m = follower_.progress_m(); along_m < end_m; along_m += 0.5 * map().resolution_m()) {
+      const Eigen::Vector2d place_m = follower_.path().point_at(along_m);
+      if (!search_.ways().is_proper(map().lattice().index_of(place_m))) return place_m;
+    }
+    return std::nullopt;
   }
 
   void set_out() {
@@ -409,7 +430,7 @@ class Explorer {
   }
 
   void search_ways() {
-    search_.search_ways(occupancy_.grid(), trail_, closed_, belief().pose.position(), params_.travel);
+    search_.search_ways(occupancy_.grid(), trail_, closed_, shut_passages_, belief().pose.position(), params_.travel);
   }
 
   [[nodiscard]] const CellBits* closed_bits() const { return closed_.none() ? nullptr : &closed_.bits(); }
@@ -431,7 +452,9 @@ class Explorer {
   ClosedCells<2> closed_;
   CandidateSearch<Cell> search_;
   ViewpointSearch viewpoints_;
-  SetAsidePlaces set_aside_;
+  SetAsidePlaces set_aside_;      // goals
+  SetAsidePlaces retreats_;       // passages and goals that there was a retreat from
+  SetAsidePlaces shut_passages_;  // that the robot did not get through
   SlamReport last_scan_;
   Decision decision_;
   PathFollower follower_;
@@ -439,7 +462,6 @@ class Explorer {
   std::vector<Index<2>> trail_;  // the cells that the robot's centre has passed, each a face neighbour of the last
   std::optional<Eigen::Vector2d> failed_;
   std::optional<Retreat> retreat_;
-  std::optional<Eigen::Vector2d> retreated_on_way_to_;  // the frontier that the last retreat was on the way to
   bool must_decide_ = false;
   bool path_was_clear_ = true;  // when last asked
   bool is_paused_ = false;

@@ -44,6 +44,8 @@ class SetAsidePlaces {
  public:
   explicit SetAsidePlaces(const SetAsideParams& params = {}) : params_(params) {}
 
+  [[nodiscard]] bool empty() const { return places_.empty(); }
+
   void add(const Eigen::Vector2d& place_m, const OccupancyGrid<2>& occupancy) {
     places_.push_back({place_m, count_known(occupancy, place_m, params_.watch_radius_m)});
   }
