@@ -64,6 +64,7 @@ class Explorer {
         closed_(slam_.map().lattice(), params.area),
         search_(slam_.map().lattice()),
         set_aside_(params.set_aside),
+        chosen_(params.set_aside),
         retreats_(params.set_aside),
         shut_passages_(params.set_aside),
         reached_(slam_.map().grid().box()) {
@@ -340,8 +341,8 @@ class Explorer {
   [[nodiscard]] bool goal_is_done() {
     const Candidate& goal = *decision_.chosen();
     if (std::exchange(must_decide_, false)) return true;
-    // Arrived, what is still to be seen may be what lay behind; only if nothing was learned, the goal has told all that it can.
-    const bool is_in_vain = has_arrived() && learned_.count() == learned_at_decision_ && is_informative(goal);
+    // Arrived, what is still to be seen may be what lay behind; only if the map there has not changed, the goal tells nothing.
+    const bool is_in_vain = has_arrived() && chosen_.contains(goal.frontier_m, occupancy_.grid()) && is_informative(goal);
     if (is_in_vain || is_overdue()) {
       failed_ = goal.frontier_m;
       return true;
@@ -398,7 +399,6 @@ class Explorer {
   bool choose() {
     reserve_reach();
     note_what_is_known();
-    learned_at_decision_ = learned_.count();
     const OccupancyGrid<2>& occupancy = occupancy_.grid();
     if (failed_) set_aside_.add(*failed_, occupancy);
     failed_.reset();
@@ -425,6 +425,8 @@ class Explorer {
     const bool is_same_goal =
         before != nullptr && distance(before->frontier_m, candidates.front().frontier_m) <= params_.set_aside.radius_m;
     if (!is_same_goal) set_out();
+    chosen_ = SetAsidePlaces(params_.set_aside);
+    chosen_.add(candidates.front().frontier_m, occupancy);
     drive_to(std::move(candidates));
     return true;
   }
@@ -453,6 +455,7 @@ class Explorer {
   CandidateSearch<Cell> search_;
   ViewpointSearch viewpoints_;
   SetAsidePlaces set_aside_;      // goals
+  SetAsidePlaces chosen_;         // the goal of the last decision, to see whether the map around it changes
   SetAsidePlaces retreats_;       // passages and goals that there was a retreat from
   SetAsidePlaces shut_passages_;  // that the robot did not get through
   SlamReport last_scan_;
@@ -471,7 +474,6 @@ class Explorer {
   double way_max_m_ = 0.0;      // the longest of the ways planned to it since
   double asked_s_ = 0.0;        // when the goal was last asked whether it serves
   std::size_t learned_then_ = 0;         // how many cells were then
-  std::size_t learned_at_decision_ = 0;  // how many were at the last decision
   double time_s_ = 0.0;
   double found_s_ = 0.0;      // when the filter was last not lost
   double unblocked_s_ = 0.0;  // when the guard last let the robot drive
