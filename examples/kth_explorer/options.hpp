@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "support/arguments.hpp"
+#include "support/exploration_names.hpp"
 
 namespace kth_explorer {
 
@@ -76,15 +77,15 @@ struct Options {
       ->capture_default_str();
   app.add_option("--strategy", options.strategy,
                  "plan anew at a viewpoint, as soon as it is no longer informative, or every second if enough was learned")
-      ->check(CLI::IsMember({"persistent", "last-mile", "online"}))
+      ->check(CLI::IsMember(examples::names_of<incognita::Strategy>()))
       ->capture_default_str();
   app.add_option("--information", options.information,
                  "what a frontier is worth: 1 (with geodesic, the nearest is gone to), its size, its entropy, the information\n"
                  "gain of the path to it, or its order of magnitude, which leaves less behind")
-      ->check(CLI::IsMember({"uniform", "size", "entropy", "big", "log-big"}))
+      ->check(CLI::IsMember(examples::names_of<incognita::FrontierInformation>()))
       ->capture_default_str();
   app.add_option("--navigation", options.navigation, "what that is divided by: nothing, the straight line, or the cost of the way")
-      ->check(CLI::IsMember({"uniform", "euclidean", "geodesic"}))
+      ->check(CLI::IsMember(examples::names_of<incognita::NavigationCost>()))
       ->capture_default_str();
   app.add_option("--duration", options.duration_s, "longest exploration, in simulated seconds, > 0; the way back comes after it")
       ->type_name("S")

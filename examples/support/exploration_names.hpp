@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "incognita/exploration/frontier_view.hpp"
 #include "incognita/exploration/strategy.hpp"
@@ -40,6 +41,14 @@ struct Names<incognita::NavigationCost> {
        {incognita::NavigationCost::euclidean, "euclidean"},
        {incognita::NavigationCost::geodesic, "geodesic"}}};
 };
+
+/// All of them, in the order of the enumerators.
+template <class Enumerator>
+[[nodiscard]] std::vector<std::string> names_of() {
+  std::vector<std::string> names;
+  for (const auto& [value, name] : Names<Enumerator>::pairs) names.emplace_back(name);
+  return names;
+}
 
 template <class Enumerator>
 [[nodiscard]] std::string name_of(Enumerator value) {
