@@ -32,7 +32,7 @@ class EntropyLines {
     for (row_shift_ = 14; row_shift_ >= 11; --row_shift_) {
       if (try_fit(relative_entropy)) return;
     }
-    lines_ = {};
+    lines_.clear();
   }
 
   [[nodiscard]] bool empty() const { return lines_.empty(); }

@@ -6,11 +6,13 @@
 
 #include <Eigen/Core>
 
+#include "incognita/geometry/vector.hpp"
+
 namespace incognita {
 
 /// The sum of H^T R^-1 H and H^T R^-1 r over measurements.
 struct Information {
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d matrix = zero<Eigen::Matrix3d>();
   Eigen::Vector3d vector{0.0, 0.0, 0.0};
 
   /// Adds a scalar measurement with Jacobian `jacobian`, residual measured minus expected, and weight 1 / variance.
@@ -27,7 +29,7 @@ struct Information {
 /// The lower triangular L with L L^T = matrix, for a symmetric positive semi-definite matrix; where it is singular, the
 /// columns that carry nothing are 0.
 [[nodiscard]] inline Eigen::Matrix3d lower_factor(const Eigen::Matrix3d& matrix) {
-  Eigen::Matrix3d lower = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d lower = zero<Eigen::Matrix3d>();
   for (int column = 0; column < 3; ++column) {
     double pivot = matrix(column, column);
     for (int k = 0; k < column; ++k) pivot -= lower(column, k) * lower(column, k);

@@ -72,7 +72,7 @@ class MapDrift {
 
   /// What poses are registered to.
   struct Reference {
-    Eigen::Matrix3d drift = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d drift = zero<Eigen::Matrix3d>();
     double turn_at_birth_rad2 = 0.0;
     int piece = 0;
   };
@@ -121,7 +121,7 @@ class MapDrift {
   /// Makes the chosen piece the reference, and returns what its choice adds to the pose's covariance: the old reference's
   /// drift beyond the new one's. Nothing changes without matches.
   [[nodiscard]] Eigen::Matrix3d choose_reference() {
-    Eigen::Matrix3d added = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d added = zero<Eigen::Matrix3d>();
     if (matched_.empty()) return added;
     const auto [chosen_m2, piece] = matched_[of_rank(params_.reference_quantile)];
     const double old_m2 = position_variance_m2(reference_.drift);

@@ -16,12 +16,12 @@ namespace incognita {
 /// N(pose, covariance) over (x, y, yaw); see Pose2::Covariance for units and axes.
 struct PoseBelief {
   Pose2 pose;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d covariance = zero<Eigen::Matrix3d>();
 };
 
 /// The covariance of independent errors.
 [[nodiscard]] inline Eigen::Matrix3d diagonal_covariance(double x_m2, double y_m2, double yaw_rad2) {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d covariance = zero<Eigen::Matrix3d>();
   covariance(0, 0) = x_m2;
   covariance(1, 1) = y_m2;
   covariance(2, 2) = yaw_rad2;
@@ -82,7 +82,7 @@ inline void require_motion(const char* where, const Pose2& increment, double dur
 [[nodiscard]] inline Eigen::Matrix3d motion_jacobian(const Pose2& pose, const Pose2& increment) {
   const double c = std::cos(pose.yaw_rad);
   const double s = std::sin(pose.yaw_rad);
-  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d jacobian = zero<Eigen::Matrix3d>();
   for (int axis = 0; axis < 3; ++axis) jacobian(axis, axis) = 1.0;
   jacobian(0, 2) = -(s * increment.x_m + c * increment.y_m);
   jacobian(1, 2) = c * increment.x_m - s * increment.y_m;

@@ -14,6 +14,7 @@
 #include "incognita/core/error.hpp"
 #include "incognita/estimation/information.hpp"
 #include "incognita/geometry/pose2.hpp"
+#include "incognita/geometry/vector.hpp"
 
 namespace incognita {
 
@@ -137,7 +138,7 @@ class SearchPrior {
     return nearest * nearest;
   }
 
-  Eigen::Matrix3d factor_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d factor_ = zero<Eigen::Matrix3d>();
 };
 
 }  // namespace incognita

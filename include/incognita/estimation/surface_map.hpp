@@ -12,6 +12,7 @@
 
 #include "incognita/core/error.hpp"
 #include "incognita/geometry/principal_axes.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/grid/grid.hpp"
 
 namespace incognita {
@@ -23,10 +24,10 @@ struct Surface {
 
   int count = 0;
   int piece = 0;  ///< the piece of the map that it was first seen with, see MapDrift
-  Point<Dim> mean_m = Point<Dim>::Zero();
-  Matrix scatter_m2 = Matrix::Zero();      ///< the sum of outer products of deviations from the mean
-  Point<Dim> view = Point<Dim>::Zero();    ///< the mean direction of the beams that ended here
-  Point<Dim> normal = Point<Dim>::Zero();  ///< unit, against the view; valid when planar
+  Point<Dim> mean_m = zero<Point<Dim>>();
+  Matrix scatter_m2 = zero<Matrix>();      ///< the sum of outer products of deviations from the mean
+  Point<Dim> view = zero<Point<Dim>>();    ///< the mean direction of the beams that ended here
+  Point<Dim> normal = zero<Point<Dim>>();  ///< unit, against the view; valid when planar
   bool planar = false;
 
   void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
@@ -99,7 +100,7 @@ class SurfaceMap {
   }
 
   void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
-    add(point_m, direction, 0, [](int /*piece*/, const Point<Dim>& /*at*/) { return Point<Dim>(Point<Dim>::Zero()); });
+    add(point_m, direction, 0, [](int /*piece*/, const Point<Dim>& /*at*/) { return zero<Point<Dim>>(); });
   }
 
   /// Moves every surface by shift_m(its piece, its mean), into the cell where it then lies, and recomputes all normals. A
@@ -220,8 +221,8 @@ class SurfaceMap {
 
   struct Pool {
     double count = 0.0;
-    Point<Dim> sum = Point<Dim>::Zero();
-    typename Surface<Dim>::Matrix moment = Surface<Dim>::Matrix::Zero();  // about the origin of the pool
+    Point<Dim> sum = zero<Point<Dim>>();
+    typename Surface<Dim>::Matrix moment = zero<typename Surface<Dim>::Matrix>();  // about the origin of the pool
 
     void add(const Surface<Dim>& surface, const Point<Dim>& origin) {
       const Point<Dim> mean = surface.mean_m - origin;

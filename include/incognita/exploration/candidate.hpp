@@ -11,6 +11,7 @@
 
 #include "incognita/core/parallel.hpp"
 #include "incognita/exploration/information_gain.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/planning/polyline.hpp"
 
 namespace incognita {
@@ -19,7 +20,7 @@ namespace incognita {
 struct Candidate {
   Eigen::Vector2d frontier_m{0.0, 0.0};     ///< a cell of the frontier, near its middle
   std::vector<Index<2>> frontier;           ///< its cells
-  Index<2> viewpoint = Index<2>::Zero();    ///< from where it is seen
+  Index<2> viewpoint = zero<Index<2>>();    ///< from where it is seen
   Polyline path;                            ///< from the robot to there
   double gain_nats = 0.0;        ///< what the path is predicted to tell, BIG with a behavioral entropy; 0 where it was not asked
   double information = 0.0;      ///< what the frontier is measured by, see FrontierInformation

@@ -12,6 +12,7 @@
 
 #include "incognita/exploration/viewpoints.hpp"
 #include "incognita/frontier/frontier.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/planning/travel_cost.hpp"
 
 namespace incognita {
@@ -60,7 +61,7 @@ enum class NavigationCost {
 /// A frontier that can be seen from somewhere that can be reached.
 struct FrontierView {
   std::size_t region = 0;                ///< which of the frontiers
-  Index<2> viewpoint = Index<2>::Zero();  ///< (21)
+  Index<2> viewpoint = zero<Index<2>>();  ///< (21)
   std::size_t seen_cells = 0;            ///< how many cells of all frontiers are seen from there
   double actionable_m2 = 0.0;            ///< the same as an area, (23)
 };

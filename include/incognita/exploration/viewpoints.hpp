@@ -167,7 +167,7 @@ class ViewpointSearch {
   template <class Visit>
   void for_each_in_sight(const std::vector<Index<2>>& frontier, const ReliableVisibility& visibility, Visit&& visit) {
     const Grid<Occupancy, 2>& occupancy = visibility.occupancy();
-    if (marked_.size() < occupancy.size()) marked_.resize(occupancy.size(), 0);
+    if (marked_.size() < occupancy.size()) marked_.resize(occupancy.size());
     marks_.clear();
     for (const Index<2>& cell : frontier) {
       visibility.visit_in_sight(cell, field_of_view_, [&](const Index<2>& at) {

@@ -11,6 +11,7 @@
 
 #include "incognita/frontier/detection.hpp"
 #include "incognita/geometry/principal_axes.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/grid/components.hpp"
 #include "incognita/grid/lattice.hpp"
 
@@ -20,8 +21,8 @@ namespace incognita {
 template <int Dim>
 struct Frontier {
   std::vector<Index<Dim>> cells;                   ///< in storage order
-  Point<Dim> centroid_m = Point<Dim>::Zero();      ///< of the cells' centres; need not be free
-  Index<Dim> representative = Index<Dim>::Zero();  ///< the cell whose centre is nearest to the centroid
+  Point<Dim> centroid_m = zero<Point<Dim>>();      ///< of the cells' centres; need not be free
+  Index<Dim> representative = zero<Index<Dim>>();  ///< the cell whose centre is nearest to the centroid
 };
 
 namespace detail {
@@ -45,10 +46,10 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<std::vector<Index<Dim>>> slabs_along_principal_axis(
     const std::vector<Index<Dim>>& cells, double length_max_cells) {
-  Point<Dim> mean = Point<Dim>::Zero();
+  Point<Dim> mean = zero<Point<Dim>>();
   for (const Index<Dim>& cell : cells) mean += cell.template cast<double>();
   mean /= static_cast<double>(cells.size());
-  Eigen::Matrix<double, Dim, Dim> scatter = Eigen::Matrix<double, Dim, Dim>::Zero();
+  Eigen::Matrix<double, Dim, Dim> scatter = zero<Eigen::Matrix<double, Dim, Dim>>();
   for (const Index<Dim>& cell : cells) {
     const Point<Dim> offset = cell.template cast<double>() - mean;
     scatter += offset * offset.transpose();
@@ -89,7 +90,7 @@ template <int Dim>
     return cell;
   };
   for (const Index<Dim>& step : neighbor_steps<Dim>(adjacency)) {
-    if (!is_stored_before<Dim>(Index<Dim>::Zero(), step)) continue;  // the way back
+    if (!is_stored_before<Dim>(zero<Index<Dim>>(), step)) continue;  // the way back
     std::size_t other = 0;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
       const Index<Dim> neighbor = cells[cell] + step;

@@ -11,8 +11,8 @@ namespace incognita {
 /// Empty unless lower < upper on every axis.
 template <class Vector>
 struct Box {
-  Vector lower = Vector::Zero();
-  Vector upper = Vector::Zero();
+  Vector lower = zero<Vector>();
+  Vector upper = zero<Vector>();
 
   [[nodiscard]] bool empty() const {
     for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "incognita/geometry/pose2.hpp"
+#include "incognita/geometry/vector.hpp"
 
 namespace incognita {
 
@@ -37,7 +38,7 @@ template <class Matrix>
   }
   if (largest == 0.0) return true;
   const double slack = tolerance * largest;
-  Matrix lower = Matrix::Zero();
+  Matrix lower = zero<Matrix>();
   for (int column = 0; column < size; ++column) {
     double pivot = matrix(column, column) + slack;
     for (int k = 0; k < column; ++k) pivot -= lower(column, k) * lower(column, k);

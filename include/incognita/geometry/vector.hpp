@@ -8,6 +8,16 @@
 
 namespace incognita {
 
+/// A matrix or column of zeros.
+template <class Matrix>
+[[nodiscard]] Matrix zero() {
+  Matrix result;
+  for (int row = 0; row < Matrix::RowsAtCompileTime; ++row) {
+    for (int column = 0; column < Matrix::ColsAtCompileTime; ++column) result(row, column) = 0;
+  }
+  return result;
+}
+
 /// a + b.
 template <class Vector>
 [[nodiscard]] Vector sum(const Vector& a, const Vector& b) {

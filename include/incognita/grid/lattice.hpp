@@ -8,6 +8,7 @@
 #include "incognita/core/error.hpp"
 #include "incognita/core/floor.hpp"
 #include "incognita/geometry/box.hpp"
+#include "incognita/geometry/vector.hpp"
 
 namespace incognita {
 
@@ -54,7 +55,7 @@ class Lattice {
   static constexpr int dimension = Dim;
 
   /// Throws std::invalid_argument unless resolution_m is finite and > 0 and the origin is finite.
-  explicit Lattice(double resolution_m, const Point<Dim>& origin_m = Point<Dim>::Zero())
+  explicit Lattice(double resolution_m, const Point<Dim>& origin_m = zero<Point<Dim>>())
       : resolution_m_(resolution_m), per_m_(1.0 / resolution_m), origin_m_(origin_m) {
     require_positive("Lattice", "resolution_m", resolution_m);
     for (int axis = 0; axis < Dim; ++axis) {

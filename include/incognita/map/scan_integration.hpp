@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "incognita/geometry/pose.hpp"
+#include "incognita/geometry/vector.hpp"
 #include "incognita/grid/segment_walk.hpp"
 #include "incognita/grid/traversal.hpp"
 #include "incognita/map/cell_layers.hpp"
@@ -284,7 +285,7 @@ class MapBeams {
     return static_cast<float>(range_m) - resolution_m_ * std::sqrt(squared);
   }
 
-  Point<Dim> origin_ = Point<Dim>::Zero();  // in lattice coordinates
+  Point<Dim> origin_ = zero<Point<Dim>>();  // in lattice coordinates
   float resolution_m_ = 0.0F;
   double push_m_ = 0.0;
   std::vector<Beam> beams_;
