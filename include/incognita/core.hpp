@@ -7,4 +7,5 @@
 #include "incognita/core/fast_log.hpp"
 #include "incognita/core/floor.hpp"
 #include "incognita/core/parallel.hpp"
+#include "incognita/core/quadrature.hpp"
 #include "incognita/core/random.hpp"
