@@ -5,6 +5,7 @@
 #include "incognita/sensor/dvl.hpp"
 #include "incognita/sensor/field_of_view.hpp"
 #include "incognita/sensor/line_segments.hpp"
+#include "incognita/sensor/measured_point.hpp"
 #include "incognita/sensor/obstacle_field.hpp"
 #include "incognita/sensor/ray_cast.hpp"
 #include "incognita/sensor/reliable_visibility.hpp"

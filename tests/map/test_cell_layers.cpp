@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/map/map.hpp"
 #include "reference.hpp"
@@ -60,6 +61,7 @@ TEST_CASE("A map's layers say of every cell what its state does, scan after scan
   SECTION("TBayes") { check_layers(TBayes()); }
   SECTION("TBayes, literal") { check_layers(TBayes(TBayes::literal_params())); }
   SECTION("LogOdds") { check_layers(LogOdds()); }
+  SECTION("Dispersion") { check_layers(Dispersion()); }
 }
 
 TEST_CASE("A map that makes room keeps its layers and the changes of the last scan", "[map]") {

@@ -168,6 +168,15 @@ struct ClearsToAnother : TBayes {
 static_assert(ClearingPolicy<TBayes> && ClearingPolicy<ClearsTooEarly>);
 static_assert(!ClearingPolicy<LogOdds> && !ClearingPolicy<Counting>);
 
+struct CountsBeams : Wrong {
+  static constexpr bool once_a_scan = true;
+};
+struct CountsBeamsAndSaysSo : Wrong {
+  static constexpr bool once_a_scan = false;
+};
+static_assert(OncePolicy<CountsBeams> && !OncePolicy<CountsBeamsAndSaysSo> && !OncePolicy<LogOdds>);
+static_assert(!PoseAwarePolicy<LogOdds> && !PoseAwarePolicy<TBayes>);
+
 template <class Policy>
 bool breaks(const std::string& law) {
   static_assert(CellPolicy<Policy>);
@@ -193,6 +202,7 @@ TEST_CASE("The check of the laws catches a wrong cell policy", "[map]") {
   CHECK(breaks<ForgetsTooMuch>("forget_stamp leaves the log-odds as they are"));
   CHECK(breaks<ClearsTooEarly>("a pass of a new cell at clearing_residual_m or beyond leaves a cleared one"));
   CHECK(breaks<ClearsToAnother>("a pass of a new cell at clearing_residual_m or beyond leaves a cleared one"));
+  CHECK(breaks<CountsBeams>("a cell takes one update a scan"));
   CHECK(breaks<ForgetsNothing>("forget_stamp makes every stamp new"));
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/overlay.hpp"
 #include "reference.hpp"
 
@@ -57,7 +58,7 @@ void compare_with_copy(const Cell& policy, int rounds) {
       const Pose2 T_map_sensor = reference::random_pose<2>(random);
       const auto covariance = reference::random_covariance<2>(random);
       copy.update(scan, T_map_sensor, covariance);
-      overlay.update(scan, T_map_sensor, covariance.template topLeftCorner<2, 2>());
+      overlay.update(scan, T_map_sensor, covariance);
     }
     require_same_log_odds(overlay, copy);
     REQUIRE(overlay.layers().heeding.tiles().values() == copy.layers().heeding.tiles().values());
@@ -95,6 +96,7 @@ TEST_CASE("An overlay is what a copied map would be, and leaves the map alone", 
   compare_with_copy<TBayes>(TBayes(), 12);
   compare_with_copy<TBayes>(TBayes(TBayes::literal_params()), 4);
   compare_with_copy<LogOdds>(LogOdds(), 4);
+  compare_with_copy<Dispersion>(Dispersion(), 4);
 }
 
 TEST_CASE("An overlay lists the cells it changed", "[map]") {
@@ -104,7 +106,7 @@ TEST_CASE("An overlay lists the cells it changed", "[map]") {
   overlay.look_at(map);
   const Scan<2> scan(planar_beams(1, 0.0, 0.0, 10.0), {3.0});
   for (int n = 0; n < 2; ++n) {
-    overlay.update(scan, {0.5, 0.5, 0.0}, Eigen::Matrix2d::Zero());
+    overlay.update(scan, {0.5, 0.5, 0.0}, Eigen::Matrix3d::Zero());
     // The face at 3.5 m, pushed by half a cell to 4.0.
     REQUIRE(changed_cells(overlay) == std::vector<Index<2>>{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}});
   }
@@ -123,7 +125,7 @@ TEST_CASE("An overlay forgets its changes however often it starts over", "[map]"
   for (int n = 0; n < 100000; ++n) {
     overlay.forget();
     REQUIRE(overlay.log_odds(cell) == map.log_odds(cell));
-    overlay.update(scan, {8.1, 10.1, 0.0}, Eigen::Matrix2d::Zero());
+    overlay.update(scan, {8.1, 10.1, 0.0}, Eigen::Matrix3d::Zero());
     if (n == 0) first = overlay.log_odds(cell);
     REQUIRE(overlay.log_odds(cell) == first);
   }
@@ -135,7 +137,7 @@ TEST_CASE("An overlay follows a map that grew, and looks at another one", "[map]
   Map<> map = scanned_map<TBayes>(random);
   Overlay<TBayes> overlay;
   overlay.look_at(map);
-  overlay.update(reference::random_scan<2>(random, 40, 4.0), {}, Eigen::Matrix2d::Zero());
+  overlay.update(reference::random_scan<2>(random, 40, 4.0), {}, Eigen::Matrix3d::Zero());
   REQUIRE(overlay.log_odds({100000, 0}) == 0.0F);
   map.update(reference::random_scan<2>(random, 40, 4.0), {40.0, -30.0, 0.0}, Eigen::Matrix3d::Zero());
   overlay.look_at(map);
@@ -152,10 +154,10 @@ TEST_CASE("An overlay refuses more predicted scans than there are stamps for", "
   // The worst map: one at its last stamp leaves 5,535.
   while (map.stamp() < Map<LogOdds>::stamp_last) map.update(none, {}, Eigen::Matrix3d::Zero());
   overlay.look_at(map);
-  for (int n = 0; n < 5535; ++n) overlay.update(none, {}, Eigen::Matrix2d::Zero());
-  REQUIRE_THROWS_AS(overlay.update(none, {}, Eigen::Matrix2d::Zero()), std::length_error);
+  for (int n = 0; n < 5535; ++n) overlay.update(none, {}, Eigen::Matrix3d::Zero());
+  REQUIRE_THROWS_AS(overlay.update(none, {}, Eigen::Matrix3d::Zero()), std::length_error);
   overlay.forget();
-  REQUIRE_NOTHROW(overlay.update(none, {}, Eigen::Matrix2d::Zero()));
+  REQUIRE_NOTHROW(overlay.update(none, {}, Eigen::Matrix3d::Zero()));
 }
 
 TEST_CASE("An overlay refuses a predicted scan that reaches out of the map's box, and stays as it was", "[map]") {
@@ -168,10 +170,10 @@ TEST_CASE("An overlay refuses a predicted scan that reaches out of the map's box
   const Scan<2> east(planar_beams(1, 0.0, 0.0, 10.0), {1.0});
   for (const double yaw_rad : {0.0, 0.5 * std::numbers::pi}) {
     const Pose2 outward{corner.x(), corner.y(), yaw_rad};
-    REQUIRE_THROWS_AS(overlay.update(east, outward, Eigen::Matrix2d::Zero()), std::length_error);
+    REQUIRE_THROWS_AS(overlay.update(east, outward, Eigen::Matrix3d::Zero()), std::length_error);
   }
   REQUIRE(changed_cells(overlay).empty());
-  REQUIRE_NOTHROW(overlay.update(east, {corner.x() - 1.5, corner.y(), 0.0}, Eigen::Matrix2d::Zero()));
+  REQUIRE_NOTHROW(overlay.update(east, {corner.x() - 1.5, corner.y(), 0.0}, Eigen::Matrix3d::Zero()));
 }
 
 TEST_CASE("An overlay refuses poses that are far away or nowhere, and one that has looked at nothing", "[map]") {
@@ -185,12 +187,12 @@ TEST_CASE("An overlay refuses poses that are far away or nowhere, and one that h
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double far : {1e5, 2e8, 1e9, 1e12, 1e300, infinity, nan}) {
     for (const Pose2& pose : {Pose2{far, 0.0, 0.0}, Pose2{0.0, -far, 0.0}, Pose2{far, far, 0.0}}) {
-      REQUIRE_THROWS_AS(overlay.update(scan, pose, Eigen::Matrix2d::Zero()), std::length_error);
+      REQUIRE_THROWS_AS(overlay.update(scan, pose, Eigen::Matrix3d::Zero()), std::length_error);
     }
   }
   REQUIRE(changed_cells(overlay).empty());
   map.reserve({Point<2>::Constant(-50.0), Point<2>::Constant(50.0)});
   REQUIRE_THROWS_AS(overlay.forget(), std::logic_error);
   overlay.look_at(map);
-  REQUIRE_NOTHROW(overlay.update(scan, {30.0, 0.0, 0.0}, Eigen::Matrix2d::Zero()));
+  REQUIRE_NOTHROW(overlay.update(scan, {30.0, 0.0, 0.0}, Eigen::Matrix3d::Zero()));
 }

@@ -37,15 +37,6 @@ inline void require_belief(const char* where, const PoseBelief& belief) {
   }
 }
 
-/// The position's block.
-[[nodiscard]] inline Eigen::Matrix2d position_covariance(const Eigen::Matrix3d& covariance) {
-  Eigen::Matrix2d block;
-  for (int row = 0; row < 2; ++row) {
-    for (int column = 0; column < 2; ++column) block(row, column) = covariance(row, column);
-  }
-  return block;
-}
-
 /// The standard deviation of the position along its worst direction, in metres.
 [[nodiscard]] inline double position_sigma_m(const Eigen::Matrix3d& covariance) {
   const double mean = 0.5 * (covariance(0, 0) + covariance(1, 1));

@@ -117,7 +117,7 @@ template <CellPolicy Cell, class Filter>
     predict_scan(to, workspace);
     const double scan_count = std::max(1.0, duration_s * params.scan_rate_hz);
     belief = filter.imagine_scan(belief, workspace.hits, workspace.beams.directions.size(), scan_count);
-    workspace.overlay.write_cast(position_covariance(belief.covariance));
+    workspace.overlay.write_cast(belief.covariance);
   };
 
   bool is_start = true;

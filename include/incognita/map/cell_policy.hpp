@@ -5,6 +5,10 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <Eigen/Core>
+
+#include "incognita/geometry/pose2.hpp"
+
 namespace incognita {
 
 /// Numbers the scans of a map so that a cell can remember that a scan has already settled it. 0 is never a scan.
@@ -43,5 +47,18 @@ concept ClearingPolicy = CellPolicy<P> && requires(const P& policy, const typena
   { policy.cleared() } -> std::same_as<typename P::State>;
   { policy.clearing_residual_m(beam) } -> std::same_as<float>;
 };
+
+/// A policy may ask for all of a pose's covariance rather than the variance along each beam. Maps of the plane then call view once
+/// a scan, and its beam for each beam, with the direction in the map's axes (a unit vector) and the range that was read.
+template <class P>
+concept PoseAwarePolicy =
+    CellPolicy<P> && requires(const P& policy, const Pose2::Covariance& covariance, double range_m, const Eigen::Vector2d& direction) {
+      { policy.view(covariance, range_m).beam(direction, range_m) } -> std::same_as<typename P::Beam>;
+    };
+
+/// A policy may say that a cell takes one update a scan, so that maps step over what a scan has settled. Law: a hit or a pass with the
+/// stamp of the last update leaves a state as it is.
+template <class P>
+concept OncePolicy = CellPolicy<P> && P::once_a_scan;
 
 }  // namespace incognita

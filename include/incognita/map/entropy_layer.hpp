@@ -1,76 +1,48 @@
 /// The information in a map of the plane, followed scan by scan.
 #pragma once
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
 #include <utility>
 
-#include "incognita/grid/cell_bits.hpp"
-#include "incognita/map/map.hpp"
+#include "incognita/map/cell_sum.hpp"
 
 namespace incognita {
 
-/// How much less the entropy of a map is than if nothing were known: the sum of H(0) - H(log-odds) over its cells. A cell that
-/// was never measured adds nothing, so the sum does not depend on how much room the map has. Kept up to date at the cost of
-/// what changes, a tile at a time, in whole units of 2^-32 nats: however it was come by, it is the same to the bit.
+/// How much less the entropy of a map is than if nothing were known: the sum of H(0) - H(log-odds) over its cells, see CellSum.
 /// Entropy is called with log-odds (float), as an EntropyTable.
 template <class Entropy>
 class EntropyLayer {
  public:
-  EntropyLayer(const Lattice<2>& lattice, Entropy entropy)
-      : entropy_(std::move(entropy)), unknown_nats_(entropy_(0.0F)), tiles_(CellBits(lattice, false).tiles().lattice()) {}
+  EntropyLayer(const Lattice<2>& lattice, Entropy entropy) : sum_(lattice, Information(std::move(entropy))) {}
 
-  /// Takes over what the map's last update changed, or the whole map when more than one update was missed (rebuild). Another map
-  /// must be taken by rebuild. O(tiles changed), amortised.
+  /// As CellSum::follow.
   template <CellPolicy Cell>
   void follow(const Map<Cell, 2>& map) {
-    if (map.update_count() == update_count_) return;
-    if (map.update_count() != update_count_ + 1) return rebuild(map);
-    update_count_ = map.update_count();
-    make_room_for(map);
-    for (const Index<2>& tile : map.layers().changed_tiles) take_tile(map, tile);
+    sum_.follow(map);
   }
 
-  /// Takes a map as it is. O(cells).
+  /// As CellSum::rebuild.
   template <CellPolicy Cell>
   void rebuild(const Map<Cell, 2>& map) {
-    tiles_ = Grid<std::int64_t, 2>(tiles_.lattice());
-    total_ = 0;
-    update_count_ = map.update_count();
-    make_room_for(map);
-    for_each_tile_of(map.grid().box(), [&](const Index<2>& tile) { take_tile(map, tile); });
+    sum_.rebuild(map);
   }
 
   /// In nats. Negative where log-odds have more entropy than none, which no entropy of this library has.
-  [[nodiscard]] double information_nats() const { return static_cast<double>(total_) / units_per_nat; }
+  [[nodiscard]] double information_nats() const { return sum_.value(); }
 
  private:
-  template <class MapType>
-  void make_room_for(const MapType& map) {
-    tiles_.grow_to_include(map.layers().changed.tiles().box());
-  }
+  struct Information {
+    Entropy entropy;
+    double unknown_nats;
 
-  template <class MapType>
-  void take_tile(const MapType& map, const Index<2>& tile) {
-    const auto states = map.states_of(tile);
-    double known_nats = 0.0;
-    for (CellBits::Word left = cells_of_tile(tile, map.grid().box()); left != 0; left &= left - 1U) {
-      known_nats += unknown_nats_ - entropy_(MapType::CellType::log_odds(states(std::countr_zero(left))));
+    explicit Information(Entropy of) : entropy(std::move(of)), unknown_nats(entropy(0.0F)) {}
+
+    template <CellPolicy Cell>
+    [[nodiscard]] double operator()(const Cell& /*policy*/, const typename Cell::State& state) const {
+      return unknown_nats - entropy(Cell::log_odds(state));
     }
-    std::int64_t& units = tiles_[tiles_.offset_of(tile)];
-    total_ -= units;
-    units = std::llround(known_nats * units_per_nat);
-    total_ += units;
-  }
+  };
 
-  static constexpr double units_per_nat = 4294967296.0;
-
-  Entropy entropy_;
-  double unknown_nats_;
-  Grid<std::int64_t, 2> tiles_;
-  std::int64_t total_ = 0;
-  std::uint64_t update_count_ = 0;
+  CellSum<Information> sum_;
 };
 
 }  // namespace incognita

@@ -83,8 +83,8 @@ class Map {
     return probability_of_log_odds(static_cast<double>(log_odds(index)));
   }
 
-  /// Writes a scan, taken at T_map_sensor with the covariance of that pose (only the position's block is used: h does
-  /// not depend on the heading), into the cells that its beams meet. Invalid beams are ignored and counted.
+  /// Writes a scan, taken at T_map_sensor with the covariance of that pose (only the position's block is used, as h does
+  /// not depend on the heading, unless the cells are a PoseAwarePolicy), into the cells that its beams meet. Invalid beams are ignored and counted.
   /// Throws std::invalid_argument for a pose or covariance that is not finite or not positive semi-definite, and
   /// std::length_error for a pose out of the lattice's reach; the map is then unchanged. O(cells passed), amortised.
   ScanReport update(const Scan<Dim>& scan, const Pose<Dim>& T_map_sensor,
@@ -94,7 +94,7 @@ class Map {
       throw std::invalid_argument("Map::update: the covariance is not finite, symmetric and positive semi-definite");
     }
     require_reach(T_map_sensor.position(), scan.range_max_m() + hit_push_m());
-    beams_.take(cell_, lattice(), scan, T_map_sensor, covariance.template topLeftCorner<Dim, Dim>(), hit_push_m());
+    beams_.take(cell_, lattice(), scan, T_map_sensor, covariance, hit_push_m());
     grow_to_include(beams_.reach());
     advance_stamp();
     ++update_count_;

@@ -100,10 +100,10 @@ class Overlay {
 
   /// Writes a predicted scan, as Map::update would. Throws std::length_error when it reaches out of the map's box
   /// (Map::reserve makes room), and after more predicted scans than stamps are left for (5,535).
-  void update(const Scan<2>& scan, const Pose2& T_map_sensor, const Eigen::Matrix2d& position_covariance_m2) {
+  void update(const Scan<2>& scan, const Pose2& T_map_sensor, const Pose2::Covariance& covariance) {
     require_stamp();
     map_->require_reach(T_map_sensor.position(), scan.range_max_m() + map_->hit_push_m());
-    beams_.take(map_->cell(), map_->lattice(), scan, T_map_sensor, position_covariance_m2, map_->hit_push_m());
+    beams_.take(map_->cell(), map_->lattice(), scan, T_map_sensor, covariance, map_->hit_push_m());
     if (!map_->grid().box().contains(beams_.reach())) {
       throw std::length_error("Overlay::update: a predicted scan reaches out of the map's box; see Map::reserve");
     }
@@ -127,9 +127,9 @@ class Overlay {
   }
 
   /// Writes the scan that cast has predicted last, once, before anything else is done with the overlay.
-  void write_cast(const Eigen::Matrix2d& position_covariance_m2) {
+  void write_cast(const Pose2::Covariance& covariance) {
     ++stamp_;
-    beams_.write_cast(map_->cell(), *layers_, map_->blocked_above(), stamp_, position_covariance_m2, Access{*this});
+    beams_.write_cast(map_->cell(), *layers_, map_->blocked_above(), stamp_, covariance, Access{*this});
   }
 
  private:

@@ -25,16 +25,37 @@ struct ScanReport {
   std::size_t beams_ignored = 0;  ///< NaN, infinite, negative or out of range
 };
 
+namespace detail {
+
+/// What makes a cell policy's constants of the beams of one scan: called with a direction in the map's axes and the range read.
+template <int Dim, CellPolicy Cell>
+[[nodiscard]] auto beam_constants(const Cell& policy, const typename Pose<Dim>::Covariance& covariance, double range_max_m) {
+  if constexpr (PoseAwarePolicy<Cell>) {
+    static_assert(Dim == 2, "a PoseAwarePolicy is for maps of the plane");
+    return [view = policy.view(covariance, range_max_m)](const Point<2>& direction, double range_m) {
+      return view.beam(direction, range_m);
+    };
+  } else {
+    return [&policy, &covariance](const Point<Dim>& direction, double /*range_m*/) {
+      const auto position = covariance.template topLeftCorner<Dim, Dim>();
+      return policy.beam(std::max(0.0, direction.dot(position * direction)));
+    };
+  }
+}
+
+}  // namespace detail
+
 /// The valid beams of a scan in a map's frame, each with what is constant along it. Keeps its storage from one scan to the
 /// next.
 template <CellPolicy Cell, int Dim>
 class MapBeams {
  public:
   /// Takes a scan's beams, seen from T_map_sensor. A hit lies `push_m` behind the measured end point: walls are measured at
-  /// the face of a cell while h is the distance to its centre (reading of Seo et al., (6)). Only the position's covariance
-  /// counts: h does not depend on the heading.
+  /// the face of a cell while h is the distance to its centre (reading of Seo et al., (6)). Of the pose's covariance only the
+  /// position's counts, unless the policy is a PoseAwarePolicy: h does not depend on the heading.
   void take(const Cell& policy, const Lattice<Dim>& lattice, const Scan<Dim>& scan, const Pose<Dim>& T_map_sensor,
-            const Eigen::Matrix<double, Dim, Dim>& position_covariance_m2, double push_m) {
+            const typename Pose<Dim>::Covariance& covariance, double push_m) {
+    const auto constants = detail::beam_constants<Dim>(policy, covariance, scan.range_max_m());
     const Point<Dim> origin_m = T_map_sensor.position();
     const Eigen::Matrix<double, Dim, Dim> rotation = T_map_sensor.rotation();
     origin_ = lattice.to_cells(origin_m);
@@ -48,10 +69,9 @@ class MapBeams {
       const Point<Dim> direction = rotation * scan.direction(beam);
       const bool is_hit = reading == Reading::hit;
       const double range_m = scan.range_m(beam);
-      const double variance_m2 = variance_along(position_covariance_m2, direction);
       const double length_m = is_hit ? range_m + push_m : range_m;
       const Point<Dim> end = lattice.to_cells(origin_m + direction * length_m);
-      beams_.push_back({end, range_m, is_hit, policy.beam(variance_m2), Walk(origin_, end, !is_hit)});
+      beams_.push_back({end, range_m, is_hit, constants(direction, range_m), Walk(origin_, end, !is_hit)});
     }
     report_ = {beams_.size(), scan.size() - beams_.size()};
   }
@@ -99,6 +119,7 @@ class MapBeams {
     write_hits(policy, layers, blocked_above, stamp, states);
     find_heeding(layers.heeding);
     write_passes(policy, layers, blocked_above, stamp, states);
+    heed_again(layers);
   }
 
   /// Takes the beams that a sensor at `origin_m`, in the axes of the map, would read if each ended in the first cell that is
@@ -112,6 +133,7 @@ class MapBeams {
     origin_ = lattice.to_cells(origin_m);
     resolution_m_ = static_cast<float>(lattice.resolution_m());
     push_m_ = push_m;
+    range_max_m_ = pattern.range_max_m;
     beams_.clear();
     beams_.reserve(pattern.directions.size());
     directions_.clear();
@@ -146,17 +168,19 @@ class MapBeams {
     report_ = {beams_.size(), pattern.directions.size() - beams_.size()};
   }
 
-  /// Writes what cast took, as `write` would write such a scan with that covariance of its position.
+  /// Writes what cast took, as `write` would write such a scan with that covariance of its pose.
   template <class States>
   void write_cast(const Cell& policy, CellLayers<Dim>& layers, float blocked_above, ScanStamp stamp,
-                  const Eigen::Matrix2d& position_covariance_m2, States&& states)
+                  const Pose2::Covariance& covariance, States&& states)
     requires(Dim == 2)
   {
+    const auto constants = detail::beam_constants<2>(policy, covariance, range_max_m_);
     for (std::size_t beam = 0; beam < beams_.size(); ++beam) {
-      beams_[beam].constants = policy.beam(variance_along(position_covariance_m2, directions_[beam]));
+      beams_[beam].constants = constants(directions_[beam], beams_[beam].range_m);
     }
     write_hits(policy, layers, blocked_above, stamp, states);
     write_passes(policy, layers, blocked_above, stamp, states);
+    heed_again(layers);
   }
 
  private:
@@ -173,8 +197,17 @@ class MapBeams {
     Walk walk;
   };
 
-  [[nodiscard]] static double variance_along(const Eigen::Matrix<double, Dim, Dim>& covariance_m2, const Point<Dim>& direction) {
-    return std::max(0.0, direction.dot(covariance_m2 * direction));
+  /// Whether a cell that was just updated ignores the passes to come: of this scan, or for ever.
+  [[nodiscard]] static bool is_settled(const Cell& policy, const typename Cell::State& state) {
+    if constexpr (OncePolicy<Cell>) return true;
+    return policy.ignores_passes(state);
+  }
+
+  /// What one scan has settled heeds the next, where settled is for this scan only.
+  static void heed_again(CellLayers<2>& layers) {
+    if constexpr (OncePolicy<Cell>) {
+      for (const Index<2>& tile : layers.changed_tiles) layers.heeding.tiles()[layers.heeding.tiles().offset_of(tile)] = ~CellBits::Word{0};
+    }
   }
 
   template <class States>
@@ -189,7 +222,7 @@ class MapBeams {
       typename Cell::State& state = states.open(place, tile, cell)(std::countr_zero(cell));
       policy.hit(state, beam.constants, residual_m(end, beam.range_m + push_m_), stamp);
       const bool is_blocked = Cell::log_odds(state) > blocked_above;
-      layers.assign(place, cell, is_blocked ? cell : 0, policy.ignores_passes(state) ? cell : 0);
+      layers.assign(place, cell, is_blocked ? cell : 0, is_settled(policy, state) ? cell : 0);
     }
   }
 
@@ -256,7 +289,7 @@ class MapBeams {
         const int bit = std::countr_zero(left);
         typename Cell::State& state = state_of(bit);
         policy.pass(state, beam.constants, residual_m(CellBits::cell_of(tile, bit), beam.range_m), stamp);
-        ignoring |= static_cast<Word>(policy.ignores_passes(state)) << bit;
+        ignoring |= static_cast<Word>(is_settled(policy, state)) << bit;
         blocking |= static_cast<Word>(Cell::log_odds(state) > blocked_above) << bit;
       }
       layers.assign(place, cells, blocking, ignoring);
@@ -301,6 +334,7 @@ class MapBeams {
   };
   std::vector<Met> met_;
   std::vector<Point<Dim>> directions_;  // of beams that were cast
+  double range_max_m_ = 0.0;            // theirs
   ScanReport report_;
 };
 

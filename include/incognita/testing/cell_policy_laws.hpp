@@ -12,7 +12,7 @@
 
 namespace incognita {
 
-/// Checks the laws on the page of CellPolicy, and of ClearingPolicy where it is one (map/cell_policy.hpp), on fixed seeded
+/// Checks the laws on the page of CellPolicy, and of ClearingPolicy and OncePolicy where it is one (map/cell_policy.hpp), on fixed seeded
 /// sequences of hits and passes, with residuals up to 100 m and poses from exact to a variance of 100 m^2, and on 20,000 equal
 /// updates in a row. A policy that passes may still break a law on another sequence.
 template <CellPolicy Policy>
@@ -101,6 +101,28 @@ template <CellPolicy Policy>
       }
     }
     report.check(same, "a pass of a new cell at clearing_residual_m or beyond leaves a cleared one, which ignores passes");
+  }
+
+  if constexpr (OncePolicy<Policy>) {
+    Random random(10);
+    bool same = true;
+    State state{};
+    for (ScanStamp stamp = 1; stamp <= 400; ++stamp) {
+      const auto beam = policy.beam(std::pow(10.0, random.uniform(-8.0, 2.0)));
+      const auto update = [&] {
+        const auto residual_m = static_cast<float>(random.uniform(-0.5, 10.0));
+        if (random.uniform() < 0.3) {
+          policy.hit(state, beam, residual_m, stamp);
+        } else {
+          policy.pass(state, beam, residual_m, stamp);
+        }
+      };
+      update();
+      const float first = Policy::log_odds(state);
+      update();
+      same = same && Policy::log_odds(state) == first;
+    }
+    report.check(same, "a cell takes one update a scan");
   }
 
   const Policy copy = policy;
