@@ -6,6 +6,8 @@
 /// - entropy/log_odds_table.hpp: entropy_of_log_odds, exact, and EntropyTable for inner loops
 /// - entropy/map_entropy.hpp: entropy_sum, map_entropy_nats, and entropy_change, the information gain
 ///   (Seo et al., (16))
+/// - entropy/signed_relative_entropy.hpp: SiREn, coverage and certainty of a map of Dispersion in one number
+/// - entropy/map_measures.hpp: other measures of a whole map, to compare with
 /// - entropy/entropy_lines.hpp: what makes entropy_sum fast
 ///
 /// # EntropyMeasure
@@ -32,6 +34,8 @@
 #include "incognita/entropy/entropy_lines.hpp"
 #include "incognita/entropy/log_odds_table.hpp"
 #include "incognita/entropy/map_entropy.hpp"
+#include "incognita/entropy/map_measures.hpp"
 #include "incognita/entropy/renyi.hpp"
 #include "incognita/entropy/shannon.hpp"
+#include "incognita/entropy/signed_relative_entropy.hpp"
 #include "incognita/entropy/tsallis.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "incognita/geometry/box.hpp"
+#include "incognita/geometry/d_optimality.hpp"
 #include "incognita/geometry/disc_hull.hpp"
 #include "incognita/geometry/polygon.hpp"
 #include "incognita/geometry/pose.hpp"
