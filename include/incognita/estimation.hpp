@@ -11,6 +11,7 @@
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/estimation/estimator.hpp"
 #include "incognita/estimation/information.hpp"
+#include "incognita/estimation/landmark_slam.hpp"
 #include "incognita/estimation/likelihood_grid.hpp"
 #include "incognita/estimation/likelihood_pyramid.hpp"
 #include "incognita/estimation/map_drift.hpp"
