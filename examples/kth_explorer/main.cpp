@@ -8,6 +8,7 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "incognita/entropy/behavioral.hpp"
 #include "incognita/entropy/renyi.hpp"
@@ -18,6 +19,7 @@
 #include "incognita/io/kth_xml.hpp"
 #include "incognita/io/polygons.hpp"
 #include "incognita/loops/loop_closure.hpp"
+#include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/simulation/start.hpp"
 #include "kth_explorer/allowed_floor.hpp"
@@ -168,13 +170,13 @@ void run(const Options& options) {
                                                  "trajectory_true.tum", "map.yaml", "map.png", "overview.png"});
   Simulator simulator(std::move(world), T_world_start, params, options.seed);
   const bool coupled = options.filter == "dvl-ekf";
-  if (options.cells == "tbayes") {
-    coupled ? explore<TBayes, LoopClosingDvlEkf>(options, simulator, params.robot, floor, area, output)
-            : explore<TBayes, DeadReckoning>(options, simulator, params.robot, floor, area, output);
-  } else {
-    coupled ? explore<LogOdds, LoopClosingDvlEkf>(options, simulator, params.robot, floor, area, output)
-            : explore<LogOdds, DeadReckoning>(options, simulator, params.robot, floor, area, output);
-  }
+  const auto explore_in = [&]<class Cell>(std::type_identity<Cell>) {
+    coupled ? explore<Cell, LoopClosingDvlEkf>(options, simulator, params.robot, floor, area, output)
+            : explore<Cell, DeadReckoning>(options, simulator, params.robot, floor, area, output);
+  };
+  if (options.cells == "tbayes") explore_in(std::type_identity<TBayes>());
+  if (options.cells == "log-odds") explore_in(std::type_identity<LogOdds>());
+  if (options.cells == "dispersion") explore_in(std::type_identity<Dispersion>());
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ struct Options {
       ->type_name("FILE.yaml|FILE.xml")
       ->check(examples::refuse_empty);
   app.add_option("--cells", options.cells, "how a cell of the belief is updated")
-      ->check(CLI::IsMember({"tbayes", "log-odds"}))
+      ->check(CLI::IsMember({"tbayes", "log-odds", "dispersion"}))
       ->capture_default_str();
   app.add_option("--entropy", options.entropy, "what uncertainty is measured by")
       ->check(CLI::IsMember({"behavioral", "shannon", "renyi", "tsallis"}))

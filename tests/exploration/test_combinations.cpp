@@ -9,6 +9,7 @@
 #include "incognita/entropy/shannon.hpp"
 #include "incognita/entropy/tsallis.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
+#include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "small_office.hpp"
 
@@ -16,7 +17,8 @@ namespace incognita {
 
 // The entropy's type matters to the constructor alone, so each of the four is given to one explorer type as a function.
 TEMPLATE_PRODUCT_TEST_CASE("every map explores with every entropy and every filter", "", std::tuple,
-                           ((TBayes, DvlEkf), (TBayes, DeadReckoning), (LogOdds, DvlEkf), (LogOdds, DeadReckoning))) {
+                           ((TBayes, DvlEkf), (TBayes, DeadReckoning), (LogOdds, DvlEkf), (LogOdds, DeadReckoning),
+                            (Dispersion, DvlEkf), (Dispersion, DeadReckoning))) {
   using Cell = std::tuple_element_t<0, TestType>;
   using Filter = std::tuple_element_t<1, TestType>;
   using Measure = std::function<double(double)>;

@@ -109,6 +109,8 @@ class Explorer {
     if (!correction().trusted) return false;
     if (!is_returning_ && time_s_ >= params_.duration_max_s) return end(StopReason::out_of_time);
     if (trail_.empty() || !filter().is_ready()) return false;
+    // Some cells take several scans to become free: a map without floor says that it is new, unless it stays so.
+    if (!knows_floor() && time_s_ < params_.lost_max_s) return false;
     if (is_returning_) return head_for_the_start();
     if (decision_.chosen() != nullptr && !goal_is_done()) return false;
     return choose();
@@ -216,6 +218,12 @@ class Explorer {
     learned_.follow(occupancy_);
     closed_.grow_to_include(occupancy_.grid().box());
     frontier_.rebuild(occupancy_, closed_bits());
+  }
+
+  [[nodiscard]] bool knows_floor() {
+    const auto& tiles = occupancy_.free().tiles().values();
+    knows_floor_ = knows_floor_ || std::any_of(tiles.begin(), tiles.end(), [](CellBits::Word free) { return free != 0; });
+    return knows_floor_;
   }
 
   /// A retreat knows only what the scan shows, so not beside what is not allowed.
@@ -467,6 +475,7 @@ class Explorer {
   std::optional<Retreat> retreat_;
   bool must_decide_ = false;
   bool path_was_clear_ = true;  // when last asked
+  bool knows_floor_ = false;  // of any free cell, ever
   bool is_paused_ = false;
   bool is_returning_ = false;
   double paused_s_ = 0.0;       // when it was paused
