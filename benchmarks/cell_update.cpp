@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "incognita/geometry/pose2.hpp"
+#include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/map/cells/t_bayes.hpp"
 #include "incognita/map/map.hpp"
@@ -28,6 +29,7 @@ namespace {
 using benchmarks::hit_push_cells;
 using benchmarks::Recording;
 using benchmarks::recording;
+using incognita::Dispersion;
 using incognita::LogOdds;
 using incognita::Map;
 using incognita::Pose2;
@@ -223,6 +225,7 @@ int main(int argc, char** argv) {
       register_dense<PlainGrid>("plain", resolution_m, revisited, where);
       register_policy("LogOdds", LogOdds(), resolution_m, revisited, where);
       register_policy("TBayes", TBayes(), resolution_m, revisited, where);
+      register_policy("Dispersion", Dispersion(), resolution_m, revisited, where);
       register_policy("TBayes_literal", TBayes(TBayes::literal_params()), resolution_m, revisited, where);
     }
   }
