@@ -1,20 +1,25 @@
 /// The worlds of the experiments, drawn for this project in the spirit of Fig. 5 and Fig. 8 of Isleyen et al.
 #pragma once
 
-#include "office_exploration/drawn_plan.hpp"
+#include "support/drawn_plan.hpp"
 
 namespace office_exploration {
+
+using examples::Along;
+using examples::draw_blocks;
+using examples::draw_wall;
+using examples::walled_floor;
 
 /// 12 x 16 m: rooms on both sides of a corridor.
 [[nodiscard]] inline incognita::FloorPlan small_office() {
   incognita::FloorPlan plan = walled_floor(12.0, 16.0);
-  draw_wall_along_y(plan, 4.9, 0.0, 16.0, {2.2, 8.0, 13.6});
-  draw_wall_along_y(plan, 7.1, 0.0, 16.0, {1.6, 6.0, 9.6, 14.0});
-  draw_wall_along_x(plan, 5.0, 0.0, 4.9, {});
-  draw_wall_along_x(plan, 10.8, 0.0, 4.9, {1.5});
-  draw_wall_along_x(plan, 3.8, 7.1, 12.0, {});
-  draw_wall_along_x(plan, 8.0, 7.1, 12.0, {10.6});
-  draw_wall_along_x(plan, 12.0, 7.1, 12.0, {});
+  draw_wall(plan, Along::y, 4.9, 0.0, 16.0, {2.2, 8.0, 13.6});
+  draw_wall(plan, Along::y, 7.1, 0.0, 16.0, {1.6, 6.0, 9.6, 14.0});
+  draw_wall(plan, Along::x, 5.0, 0.0, 4.9, {});
+  draw_wall(plan, Along::x, 10.8, 0.0, 4.9, {1.5});
+  draw_wall(plan, Along::x, 3.8, 7.1, 12.0, {});
+  draw_wall(plan, Along::x, 8.0, 7.1, 12.0, {10.6});
+  draw_wall(plan, Along::x, 12.0, 7.1, 12.0, {});
   draw_blocks(plan, {{{1.3, 1.6}, {2.9, 2.4}},
                      {{1.8, 7.2}, {3.0, 8.8}},
                      {{0.1, 15.2}, {3.0, 15.9}},
@@ -29,18 +34,18 @@ namespace office_exploration {
 /// 28 x 19 m: rooms of many sizes and a hall along two corridors that meet.
 [[nodiscard]] inline incognita::FloorPlan large_office() {
   incognita::FloorPlan plan = walled_floor(28.0, 19.0);
-  draw_wall_along_x(plan, 8.4, 0.0, 28.0, {2.6, 8.2, 13.4, 19.0, 25.5});
-  draw_wall_along_x(plan, 10.6, 0.0, 12.9, {3.0, 9.6});
-  draw_wall_along_x(plan, 10.6, 15.1, 28.0, {18.4, 24.5});
-  draw_wall_along_y(plan, 12.9, 10.6, 19.0, {13.0, 17.2});
-  draw_wall_along_y(plan, 15.1, 10.6, 19.0, {14.5});
-  draw_wall_along_y(plan, 6.2, 10.6, 19.0, {16.5});
-  draw_wall_along_x(plan, 15.0, 6.2, 12.9, {});
-  draw_wall_along_y(plan, 21.5, 10.6, 19.0, {16.8});
-  draw_wall_along_x(plan, 14.6, 21.5, 28.0, {});
-  draw_wall_along_y(plan, 5.4, 0.0, 8.4, {});
-  draw_wall_along_y(plan, 11.0, 0.0, 8.4, {3.0});
-  draw_wall_along_y(plan, 16.6, 0.0, 8.4, {});
+  draw_wall(plan, Along::x, 8.4, 0.0, 28.0, {2.6, 8.2, 13.4, 19.0, 25.5});
+  draw_wall(plan, Along::x, 10.6, 0.0, 12.9, {3.0, 9.6});
+  draw_wall(plan, Along::x, 10.6, 15.1, 28.0, {18.4, 24.5});
+  draw_wall(plan, Along::y, 12.9, 10.6, 19.0, {13.0, 17.2});
+  draw_wall(plan, Along::y, 15.1, 10.6, 19.0, {14.5});
+  draw_wall(plan, Along::y, 6.2, 10.6, 19.0, {16.5});
+  draw_wall(plan, Along::x, 15.0, 6.2, 12.9, {});
+  draw_wall(plan, Along::y, 21.5, 10.6, 19.0, {16.8});
+  draw_wall(plan, Along::x, 14.6, 21.5, 28.0, {});
+  draw_wall(plan, Along::y, 5.4, 0.0, 8.4, {});
+  draw_wall(plan, Along::y, 11.0, 0.0, 8.4, {3.0});
+  draw_wall(plan, Along::y, 16.6, 0.0, 8.4, {});
   draw_blocks(plan, {{{1.6, 2.2}, {3.2, 3.0}},
                      {{1.6, 5.0}, {3.2, 5.8}},
                      {{7.4, 4.6}, {9.0, 6.2}},

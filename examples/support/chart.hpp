@@ -104,7 +104,7 @@ inline std::string script(const std::filesystem::path& path, const std::vector<C
         << range(chart.y_range) << "\nset size " << (chart.equal_axes ? "ratio -1" : "noratio") << "\n"
         << (chart.legend.starts_with("below") ? "set bmargin 6.5\n" : "set bmargin\n")
         << (chart.legend == "off" ? "unset key"
-                                  : "set key " + chart.legend + " reverse Left samplen 2.5 spacing 1.1")
+                                  : std::string("set key ") + (chart.legend.starts_with("below") ? "" : "inside ") + chart.legend + " reverse Left samplen 2.5 spacing 1.1")
         << "\n";
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
       const Series& series = chart.series[i];

@@ -6,7 +6,7 @@
 
 #include "incognita/grid/floor_plan.hpp"
 
-namespace office_exploration {
+namespace examples {
 
 /// A rectangle on the floor.
 using Area = incognita::Box<incognita::Point<2>>;
@@ -35,26 +35,19 @@ inline void draw(incognita::FloorPlan& plan, const Area& area, incognita::FloorC
   return plan;
 }
 
-/// A wall along x from x_from_m to x_to_m whose middle is at y_m, with doors in it whose middles are at doors_x_m.
-inline void draw_wall_along_x(incognita::FloorPlan& plan, double y_m, double x_from_m, double x_to_m,
-                              const std::vector<double>& doors_x_m) {
-  const double low_m = y_m - 0.5 * wall_m;
-  const double high_m = y_m + 0.5 * wall_m;
-  draw(plan, {{x_from_m, low_m}, {x_to_m, high_m}}, incognita::FloorCell::wall);
-  for (const double x_m : doors_x_m) {
-    draw(plan, {{x_m - 0.5 * door_m, low_m}, {x_m + 0.5 * door_m, high_m}}, incognita::FloorCell::floor);
-  }
-}
+/// The axis that a wall runs along.
+enum class Along { x, y };
 
-/// The same along y.
-inline void draw_wall_along_y(incognita::FloorPlan& plan, double x_m, double y_from_m, double y_to_m,
-                              const std::vector<double>& doors_y_m) {
-  const double low_m = x_m - 0.5 * wall_m;
-  const double high_m = x_m + 0.5 * wall_m;
-  draw(plan, {{low_m, y_from_m}, {high_m, y_to_m}}, incognita::FloorCell::wall);
-  for (const double y_m : doors_y_m) {
-    draw(plan, {{low_m, y_m - 0.5 * door_m}, {high_m, y_m + 0.5 * door_m}}, incognita::FloorCell::floor);
-  }
+/// A wall from from_m to to_m along an axis, its middle at across_m on the other, with doors in it whose middles are at doors_m.
+inline void draw_wall(incognita::FloorPlan& plan, Along along, double across_m, double from_m, double to_m,
+                      const std::vector<double>& doors_m) {
+  const auto piece = [&](double low_m, double high_m) {
+    const incognita::Point<2> low(low_m, across_m - 0.5 * wall_m);
+    const incognita::Point<2> high(high_m, across_m + 0.5 * wall_m);
+    return along == Along::x ? Area{low, high} : Area{{low.y(), low.x()}, {high.y(), high.x()}};
+  };
+  draw(plan, piece(from_m, to_m), incognita::FloorCell::wall);
+  for (const double door : doors_m) draw(plan, piece(door - 0.5 * door_m, door + 0.5 * door_m), incognita::FloorCell::floor);
 }
 
 /// Desks, shelves, boxes.
@@ -62,4 +55,4 @@ inline void draw_blocks(incognita::FloorPlan& plan, const std::vector<Area>& blo
   for (const Area& block : blocks) draw(plan, block, incognita::FloorCell::wall);
 }
 
-}  // namespace office_exploration
+}  // namespace examples

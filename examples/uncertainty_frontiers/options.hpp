@@ -1,0 +1,44 @@
+/// The command line of uncertainty_frontiers.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "support/arguments.hpp"
+
+namespace uncertainty_frontiers {
+
+struct Options {
+  std::string experiment = "all";
+  int seeds = 5;
+  int threads = 0;
+  std::string output = "output/uncertainty_frontiers";
+  bool quiet = false;
+};
+
+/// Throws CLI::ParseError; one whose exit code is 0 asks for the help text.
+[[nodiscard]] inline Options parse_options(CLI::App& app, int argc, char** argv) {
+  Options options;
+  app.add_option("--experiment", options.experiment,
+                 "figures: how uncertainty grows; corridors: the frontier that classical ones miss; hall: four planning systems "
+                 "in four layouts")
+      ->check(CLI::IsMember({"figures", "corridors", "hall", "all"}))
+      ->capture_default_str();
+  app.add_option("--seeds", options.seeds, "trials of each setting, 1 to 1000")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "how many trials run side by side; 0: as many as OpenMP takes")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--output", options.output, "folder for the results")
+      ->type_name("DIR")
+      ->check(examples::refuse_empty)
+      ->capture_default_str();
+  app.add_flag("--quiet", options.quiet, "print nothing but errors");
+  app.parse(argc, argv);
+  return options;
+}
+
+}  // namespace uncertainty_frontiers
