@@ -133,6 +133,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   params.information = examples::named<FrontierInformation>(options.information);
   params.navigation = examples::named<NavigationCost>(options.navigation);
   params.area = area.transformed(simulator.T_start_world());
+  if (options.frontiers == "uncertain") params.uncertainty.emplace();
   params.threads = options.threads;
   MapParams map_params;
   map_params.resolution_m = options.resolution_m;

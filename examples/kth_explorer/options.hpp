@@ -20,6 +20,7 @@ namespace kth_explorer {
 struct Options {
   std::string map_file;  ///< empty: the embedded floor plan
   std::string cells = "tbayes";
+  std::string frontiers = "classical";
   std::string entropy = "behavioral";
   double alpha = 1.0;
   std::string filter = "dvl-ekf";
@@ -59,6 +60,11 @@ struct Options {
       ->check(examples::refuse_empty);
   app.add_option("--cells", options.cells, "how a cell of the belief is updated")
       ->check(CLI::IsMember({"tbayes", "log-odds", "dispersion"}))
+      ->capture_default_str();
+  app.add_option("--frontiers", options.frontiers,
+                 "what is gone to: where known floor ends, or also where the uncertainty of what was seen leaps (with --cells\n"
+                 "dispersion and --information uniform, size or entropy)")
+      ->check(CLI::IsMember({"classical", "uncertain"}))
       ->capture_default_str();
   app.add_option("--entropy", options.entropy, "what uncertainty is measured by")
       ->check(CLI::IsMember({"behavioral", "shannon", "renyi", "tsallis"}))
@@ -131,6 +137,11 @@ struct Options {
           "--resolution: " + shown(options.resolution_m) + " m is not in 0.02..1");
   require(options.robot_radius_m > 0.0 && options.robot_radius_m <= 5.0,
           "--radius: " + shown(options.robot_radius_m) + " m is not in (0, 5]");
+  if (options.frontiers == "uncertain") {
+    require(options.cells == "dispersion", "--frontiers uncertain needs --cells dispersion, not " + options.cells);
+    require(!incognita::is_of_path(examples::named<incognita::FrontierInformation>(options.information)),
+            "--frontiers uncertain needs --information uniform, size or entropy, not " + options.information);
+  }
   if (!bounds.empty()) {
     options.bounds_m = examples::parse_numbers<4>("--bounds", bounds, "X0,Y0,X1,Y1 with finite numbers in metres");
     const auto [x0_m, y0_m, x1_m, y1_m] = *options.bounds_m;

@@ -99,12 +99,13 @@ inline std::string script(const std::filesystem::path& path, const std::vector<C
       << "set format '%g'\nset title offset 0,-0.4\n";
   block = 0;
   for (const Chart& chart : panels) {
+    const std::string place = (chart.legend.starts_with("below") ? "" : "inside ") + chart.legend;
     out << "set title " << quoted(chart.title) << "\nset xlabel " << quoted(chart.x_label) << "\nset ylabel "
         << quoted(chart.y_label) << "\nset xrange " << range(chart.x_range) << "\nset yrange "
         << range(chart.y_range) << "\nset size " << (chart.equal_axes ? "ratio -1" : "noratio") << "\n"
         << (chart.legend.starts_with("below") ? "set bmargin 6.5\n" : "set bmargin\n")
         << (chart.legend == "off" ? "unset key"
-                                  : std::string("set key ") + (chart.legend.starts_with("below") ? "" : "inside ") + chart.legend + " reverse Left samplen 2.5 spacing 1.1")
+                                  : "set key " + place + " reverse Left samplen 2.5 spacing 1.1")
         << "\n";
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
       const Series& series = chart.series[i];

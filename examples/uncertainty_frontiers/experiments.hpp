@@ -28,7 +28,7 @@ struct Snapshot {
 inline constexpr double corridor_sigma_max_m = 1.0;
 
 [[nodiscard]] inline Snapshot snapshot(const Robot& robot) {
-  Snapshot shot{robot.map(0), {}, {}, robot.path_m(), incognita::signed_relative_entropy(robot.map(0)), 0.0, robot.position_sigma_m()};
+  Snapshot shot{robot.map(0), {}, {}, robot.path_m(), incognita::map_signed_relative_entropy_nats_m2(robot.map(0)), 0.0, robot.position_sigma_m()};
   const KnownFloor floor(shot.map, robot.position_m());
   shot.classical = objectives({"", false, false, corridor_sigma_max_m}, shot.map, floor);
   shot.uncertain = objectives({"", true, false, corridor_sigma_max_m}, shot.map, floor);

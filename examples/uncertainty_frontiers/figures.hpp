@@ -1,6 +1,7 @@
 /// Pictures and charts in the manner of Figs. 2, 3, 4, 6, 8 and 9 of Sansoni et al.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -208,7 +210,7 @@ inline void draw_figures(const std::filesystem::path& path) {
   examples::Series curve{.name = "SiREn of a cell", .color = "#1f77b4"};
   for (double ratio = 0.02; ratio < 2.5; ratio += 0.01) {
     curve.x.push_back(ratio);
-    curve.y.push_back(signed_relative_entropy_of_ratio(ratio, 1));
+    curve.y.push_back(signed_relative_entropy_nats_of_ratio(ratio, 1));
   }
   divergence.series = {curve};
   examples::write_chart_png(path, {clouds, terms, divergence});

@@ -16,6 +16,12 @@ namespace uncertainty_frontiers {
   return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
+/// The middle value; of an even number the mean of the two in the middle. 0 of none.
+[[nodiscard]] inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0.0 : quantile(values, 0.5);
+}
+
 /// What a box plot shows.
 struct Box {
   double least, lower_quartile, median, upper_quartile, greatest;

@@ -12,16 +12,9 @@
 #include "incognita/entropy/signed_relative_entropy.hpp"
 #include "incognita/map/uncertainty_map.hpp"
 #include "uncertainty_frontiers/planning_system.hpp"
+#include "uncertainty_frontiers/statistics.hpp"
 
 namespace uncertainty_frontiers {
-
-/// The middle value; of an even number the mean of the two in the middle. 0 of none.
-[[nodiscard]] inline double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 /// A setting of section 5.2.
 struct Setting {
@@ -30,7 +23,7 @@ struct Setting {
   int start;      ///< P_1 or P_2
 };
 
-/// SiREn is judged by maps of their own, the same for all systems.
+/// SiREn is judged by the same two maps for all systems, each of which is the own map of some.
 inline constexpr double judged_sigmas_max_m[] = {0.6, 1.0};
 
 struct Trial {
@@ -85,7 +78,7 @@ inline constexpr double same_place_m = 0.75;
     }
   }
 
-  for (std::size_t i = 0; i < 2; ++i) trial.siren_nats_m2[i] = incognita::signed_relative_entropy(robot.map(i));
+  for (std::size_t i = 0; i < 2; ++i) trial.siren_nats_m2[i] = incognita::map_signed_relative_entropy_nats_m2(robot.map(i));
   const Belief& map = robot.map(own);
   const incognita::UncertaintyOfDispersion uncertainty_m(map.cell());
   std::vector<double> uncertainties_m;

@@ -1,5 +1,5 @@
 /// core/: what every other room stands on. Angles, errors that name the value and its bound, seeded random numbers,
-/// and the loop over threads, the only place that names OpenMP.
+/// integrals, and the loop over threads, the only place that names OpenMP.
 #pragma once
 
 #include "incognita/core/angles.hpp"

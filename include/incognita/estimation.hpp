@@ -1,7 +1,8 @@
 /// estimation/: where the robot is. `DvlEkf` weighs each hit by the map's confidence (Seo et al., section IV-B);
 /// `DeadReckoning` is the baseline. Both model the concept Estimator, whose page states the laws. `register_scan`,
 /// `ray_update` and `propagate` are the filter's steps as free functions; `SurfaceMap` holds what registration needs;
-/// `CorrelativeSearch` finds the pose again when odometry is too far off to register. `Slam` couples a filter and a map.
+/// `CorrelativeSearch` finds the pose again when odometry is too far off to register. `Slam` couples a filter and a map. `LandmarkSlam` is a
+/// linear filter of its own, for robots that know their heading.
 /// For maps that stay whole where a ring of corridors closes, see loops/.
 #pragma once
 

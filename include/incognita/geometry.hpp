@@ -1,4 +1,4 @@
-/// geometry/: poses in the plane, twists, axis-aligned boxes, polygons. A pose named T_a_b takes coordinates in frame b to coordinates in
+/// geometry/: poses in the plane, twists, axis-aligned boxes, polygons, the size of a covariance. A pose named T_a_b takes coordinates in frame b to coordinates in
 /// frame a. Poses in space are in geometry/pose3.hpp, which costs time to compile.
 #pragma once
 

@@ -4,7 +4,7 @@
 /// `guard_command` slows the robot down before what its latest scan shows; `Retreat` takes it out of a tight
 /// place. `safe_spaces`, `visit_cost` and `SafePathFollower` are the planning of Isleyen et al.: where a body fits, paths that keep
 /// clear of walls and near to the unknown, and a unicycle that follows them without leaving where it fits. `AllowedArea` is where a
-/// user lets the robot be. Each part works without the others.
+/// user lets the robot be. `RandomTree` is an RRT or RRT* with a cost of any kind, such as `LandmarkCost`. Each part works without the others.
 #pragma once
 
 #include "incognita/planning/allowed_area.hpp"

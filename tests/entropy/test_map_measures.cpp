@@ -40,15 +40,15 @@ TEST_CASE("Measures of a map are their sums over probabilities", "[entropy]") {
     REQUIRE(map_renyi_bits(map, alpha) == Approx(renyi_bits));
     REQUIRE(map_information_difference_bits(map, alpha) == Approx(static_cast<double>(shannon_nats / std::log(2.0L)) - renyi_bits));
   }
-  REQUIRE(map_entropy_by_size(map) == Approx(static_cast<double>(0.04L * shannon_nats)));
+  REQUIRE(map_entropy_nats_by_size(map) == Approx(static_cast<double>(0.04L * shannon_nats)));
 }
 
 TEST_CASE("Unlike SiREn, they depend on the room that a map has", "[entropy]") {
   Map<LogOdds> map = scanned_map();
-  const double before = map_entropy_by_size(map);
+  const double before = map_entropy_nats_by_size(map);
   const auto cells = map.grid().size();
   map.reserve({{-20.0, -20.0}, {20.0, 20.0}});
-  REQUIRE(map_entropy_by_size(map) == Approx(before + 0.04 * std::log(2.0) * static_cast<double>(map.grid().size() - cells)));
+  REQUIRE(map_entropy_nats_by_size(map) == Approx(before + 0.04 * std::log(2.0) * static_cast<double>(map.grid().size() - cells)));
 }
 
 TEST_CASE("Measures of a map refuse orders that they have no meaning for", "[entropy]") {

@@ -47,18 +47,10 @@ long double brute_force_divergence(const Eigen::Matrix2d& p, const Eigen::Matrix
   return sum * step * step;
 }
 
-Map<Dispersion> scanned_map(Random& random, int scans, double resolution_m = 0.1) {
+Map<Dispersion> empty_map(double resolution_m) {
   Dispersion::Params params;
   params.sigma_max_m = 0.3;
-  Map<Dispersion> map({resolution_m, 0.5}, Dispersion(params));
-  for (int n = 0; n < scans; ++n) {
-    Scan<2> scan(circular_beams(60, 4.0));
-    for (std::size_t beam = 0; beam < scan.size(); ++beam) scan.set_range_m(beam, random.uniform(0.5, 4.5));
-    const double sigma_m = random.uniform(0.01, 0.6);
-    map.update(scan, {random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0), random.uniform(-3.0, 3.0)},
-               Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-4).asDiagonal());
-  }
-  return map;
+  return Map<Dispersion>({resolution_m, 0.5}, Dispersion(params));
 }
 
 }  // namespace
@@ -72,8 +64,12 @@ TEST_CASE("D-opt is the product of the principal variances, whichever way they l
     REQUIRE(mean_sigma(covariance) == Approx(std::sqrt(1.5)));
   }
   REQUIRE(mean_sigma(Eigen::Matrix3d(Eigen::Vector3d(4.0, 4.0, 4e-4).asDiagonal())) == Approx(0.43089).epsilon(1e-5));  // (A.8)
-  REQUIRE_THROWS_WITH(d_optimality(Eigen::Matrix2d(Eigen::Matrix2d::Zero())), Contains("positive definite"));
-  REQUIRE_THROWS_WITH(mean_sigma(Eigen::Matrix2d(Eigen::Matrix2d::Constant(kNan))), Contains("asymmetry is nan"));
+  Eigen::Matrix2d rounded;  // symmetric but for rounding around 0
+  rounded << 1.0, 1e-18, -1e-18, 1.0;
+  REQUIRE(d_optimality(rounded) == Approx(1.0));
+  REQUIRE_THROWS_WITH(d_optimality(Eigen::Matrix2d(Eigen::Matrix2d::Zero())), Contains("variance is 0"));
+  REQUIRE_THROWS_WITH(d_optimality(Eigen::Matrix2d(Eigen::Matrix2d::Ones())), Contains("positive definite"));
+  REQUIRE_THROWS_WITH(mean_sigma(Eigen::Matrix2d(Eigen::Matrix2d::Constant(kNan))), Contains("variance is nan"));
   REQUIRE_THROWS_WITH(d_optimality(Eigen::MatrixXd(0, 0)), Contains("columns is 0"));
 }
 
@@ -84,17 +80,16 @@ TEST_CASE("The divergence of Gaussians is the integral", "[siren]") {
     const Eigen::Matrix2d q = random_covariance(random);
     REQUIRE(relative_entropy_nats(p, q) == Approx(static_cast<double>(brute_force_divergence(p, q))).epsilon(1e-9).margin(1e-10));
     REQUIRE(relative_entropy_nats(p, p) == Approx(0.0).margin(1e-12));
-    REQUIRE(std::abs(signed_relative_entropy_nats(p, q)) == relative_entropy_nats(p, q));
-    REQUIRE((signed_relative_entropy_nats(p, q) > 0.0) == (p.determinant() < q.determinant()));
+    REQUIRE(signed_relative_entropy_nats(p, q) == (p.determinant() < q.determinant() ? 1.0 : -1.0) * relative_entropy_nats(p, q));
     // (21) takes the divergence of round Gaussians for that of others: never more than it.
-    const double by_ratio = std::abs(signed_relative_entropy_of_ratio(mean_sigma(p) / mean_sigma(q), 2));
+    const double by_ratio = std::abs(signed_relative_entropy_nats_of_ratio(mean_sigma(p) / mean_sigma(q), 2));
     REQUIRE(by_ratio <= relative_entropy_nats(p, q) + 1e-12);
     const double scale = random.uniform(0.1, 3.0);
     const Eigen::Matrix2d proportional = scale * scale * q;
-    REQUIRE(signed_relative_entropy_nats(proportional, q) == Approx(signed_relative_entropy_of_ratio(scale, 2)).margin(1e-12));
+    REQUIRE(signed_relative_entropy_nats(proportional, q) == Approx(signed_relative_entropy_nats_of_ratio(scale, 2)).margin(1e-12));
   }
   const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
-  REQUIRE(signed_relative_entropy_nats(Eigen::Matrix3d(0.25 * unit), unit) == Approx(signed_relative_entropy_of_ratio(0.5, 3)));
+  REQUIRE(signed_relative_entropy_nats(Eigen::Matrix3d(0.25 * unit), unit) == Approx(signed_relative_entropy_nats_of_ratio(0.5, 3)));
   REQUIRE_THROWS_WITH(relative_entropy_nats(Eigen::MatrixXd(Eigen::MatrixXd::Identity(2, 2)), Eigen::MatrixXd(Eigen::MatrixXd::Identity(3, 3))),
                       Contains("the size of p is 2"));
 }
@@ -103,19 +98,19 @@ TEST_CASE("SiREn falls strictly with sigma, through 0 at what is tolerated", "[s
   for (const int dimension : {1, 2, 3}) {
     double before = std::numeric_limits<double>::infinity();
     for (double ratio = 0.01; ratio < 5.0; ratio *= 1.01) {
-      const double value = signed_relative_entropy_of_ratio(ratio, dimension);
+      const double value = signed_relative_entropy_nats_of_ratio(ratio, dimension);
       REQUIRE(value < before);
       REQUIRE((value > 0.0) == (ratio < 1.0));
       before = value;
       // The same by probabilities, p / beta = ratio^-N.
-      REQUIRE(signed_relative_entropy_of_probability(std::pow(ratio, -dimension), dimension) == Approx(value).margin(1e-12));
+      REQUIRE(signed_relative_entropy_nats_of_probability(std::pow(ratio, -dimension), dimension) == Approx(value).margin(1e-12));
     }
-    REQUIRE(signed_relative_entropy_of_ratio(1.0, dimension) == 0.0);
-    REQUIRE(signed_relative_entropy_of_probability(1.0, dimension) == 0.0);
+    REQUIRE(signed_relative_entropy_nats_of_ratio(1.0, dimension) == 0.0);
+    REQUIRE(signed_relative_entropy_nats_of_probability(1.0, dimension) == 0.0);
   }
   // (20)
-  REQUIRE(signed_relative_entropy_of_ratio(0.5, 1) == Approx(-std::log(0.5) + 0.5 * (0.25 - 1.0)));
-  REQUIRE(signed_relative_entropy_of_ratio(2.0, 1) == Approx(std::log(2.0) - 0.5 * 3.0));
+  REQUIRE(signed_relative_entropy_nats_of_ratio(0.5, 1) == Approx(-std::log(0.5) + 0.5 * (0.25 - 1.0)));
+  REQUIRE(signed_relative_entropy_nats_of_ratio(2.0, 1) == Approx(std::log(2.0) - 0.5 * 3.0));
 }
 
 TEST_CASE("With the exponent that is printed in (22) a divergence would be negative", "[siren]") {
@@ -124,16 +119,17 @@ TEST_CASE("With the exponent that is printed in (22) a divergence would be negat
   REQUIRE(printed == Approx(-0.051).margin(5e-4));
   const double corrected = std::log(ratio) - 1.0 + std::pow(1.0 / ratio, 2.0 / 2.0);
   REQUIRE(corrected > 0.0);
-  REQUIRE(signed_relative_entropy_of_probability(ratio, 2) == Approx(-corrected));
+  REQUIRE(signed_relative_entropy_nats_of_probability(ratio, 2) == Approx(-corrected));
 }
 
 TEST_CASE("A map's SiREn is that of its cells, and follows it to the bit", "[siren]") {
   Random random(2);
-  const Map<Dispersion> empty;
-  REQUIRE(signed_relative_entropy(empty) == 0.0);
-
-  Map<Dispersion> map = scanned_map(random, 0);
-  CellSum<SignedRelativeEntropy> followed(map.lattice(), {0.01});
+  Map<Dispersion> map = empty_map(0.1);
+  map.reserve({{-1.0, -1.0}, {1.0, 1.0}});
+  REQUIRE(map.grid().size() > 100);
+  REQUIRE(map_signed_relative_entropy_nats_m2(map) == 0.0);
+  const SignedRelativeEntropy measure(0.01);
+  CellSum<SignedRelativeEntropy> followed(map.lattice(), measure);
   for (int n = 0; n < 30; ++n) {
     Scan<2> scan(circular_beams(60, 4.0));
     for (std::size_t beam = 0; beam < scan.size(); ++beam) scan.set_range_m(beam, random.uniform(0.5, 4.5));
@@ -144,36 +140,39 @@ TEST_CASE("A map's SiREn is that of its cells, and follows it to the bit", "[sir
     double by_cells = 0.0;
     for (const Dispersion::State& state : map.grid().values()) {
       if (!state.is_explored) continue;
-      by_cells += 0.01 * signed_relative_entropy_of_probability(map.cell().dispersion_probability(state) / map.cell().beta(), 2);
+      by_cells += 0.01 * signed_relative_entropy_nats_of_probability(map.cell().dispersion_probability(state) / map.cell().beta(), 2);
     }
     REQUIRE(followed.value() == Approx(by_cells).margin(1e-6));
-    REQUIRE(signed_relative_entropy(map) == Approx(by_cells).margin(1e-6));
+    REQUIRE(map_signed_relative_entropy_nats_m2(map) == Approx(by_cells).margin(1e-6));
   }
-  CellSum<SignedRelativeEntropy> anew(map.lattice(), {0.01});
+  CellSum<SignedRelativeEntropy> anew(map.lattice(), measure);
   anew.rebuild(map);
   REQUIRE(anew.value() == followed.value());
 
   // Room that nobody has seen does not count.
-  const double before = signed_relative_entropy(map);
+  const double before = map_signed_relative_entropy_nats_m2(map);
   map.reserve({{-30.0, -30.0}, {30.0, 30.0}});
-  REQUIRE(signed_relative_entropy(map) == before);
+  REQUIRE(map_signed_relative_entropy_nats_m2(map) == before);
   anew.rebuild(map);
   REQUIRE(anew.value() == followed.value());
 }
 
 TEST_CASE("Cells of half the side, four times as many, make the same SiREn", "[siren]") {
-  const Dispersion policy;
-  Dispersion::State state;
-  policy.pass(state, policy.beam(0.04), -2.0F, 1);
-  const double whole = SignedRelativeEntropy{0.04}(policy, state);
-  REQUIRE(whole > 0.0);
-  REQUIRE(4.0 * SignedRelativeEntropy{0.01}(policy, state) == Approx(whole));
-  REQUIRE(SignedRelativeEntropy{}(policy, {}) == 0.0);
+  double siren[2];
+  for (const bool fine : {false, true}) {
+    Map<Dispersion> map = empty_map(fine ? 0.05 : 0.1);
+    for (int n = 0; n < 3; ++n) map.update(Scan<2>(circular_beams(1440, 5.0)), {}, Eigen::Vector3d(0.01, 0.01, 1e-6).asDiagonal());
+    siren[fine ? 1 : 0] = map_signed_relative_entropy_nats_m2(map);
+  }
+  REQUIRE(siren[0] > 10.0);
+  REQUIRE(siren[1] == Approx(siren[0]).epsilon(0.03));  // but for the rim
+  REQUIRE(SignedRelativeEntropy(0.01)(Dispersion(), {}) == 0.0);
 }
 
 TEST_CASE("Signed relative entropy refuses what has no meaning", "[siren]") {
-  REQUIRE_THROWS_WITH(signed_relative_entropy_of_ratio(0.0, 2), Contains("ratio is 0"));
-  REQUIRE_THROWS_WITH(signed_relative_entropy_of_ratio(1.0, 0), Contains("dimension is 0"));
-  REQUIRE_THROWS_WITH(signed_relative_entropy_of_probability(kNan, 2), Contains("ratio is nan"));
-  REQUIRE_THROWS_WITH(signed_relative_entropy_of_probability(1.0, -1), Contains("dimension is -1"));
+  REQUIRE_THROWS_WITH(SignedRelativeEntropy(0.0), Contains("cell_size is 0"));
+  REQUIRE_THROWS_WITH(signed_relative_entropy_nats_of_ratio(0.0, 2), Contains("ratio is 0"));
+  REQUIRE_THROWS_WITH(signed_relative_entropy_nats_of_ratio(1.0, 0), Contains("dimension is 0"));
+  REQUIRE_THROWS_WITH(signed_relative_entropy_nats_of_probability(kNan, 2), Contains("ratio is nan"));
+  REQUIRE_THROWS_WITH(signed_relative_entropy_nats_of_probability(1.0, -1), Contains("dimension is -1"));
 }

@@ -53,6 +53,8 @@ output=/dev/null/x refused "an output below a file" /dev/null/x
 refused "resolution 0" --resolution --resolution 0
 refused "a negative seed" --seed --seed -1
 refused "a seed that is too large" 18446744073709551616 --seed 18446744073709551616
+refused "uncertainty frontiers of other cells" "needs --cells dispersion" --frontiers uncertain --information size
+refused "uncertainty frontiers by BIG" "needs --information" --frontiers uncertain --cells dispersion
 refused "a map without a name" --map --map ""
 refused "a start without a point" --start --start ""
 refused "a negative duration" --duration --duration -5
@@ -68,7 +70,7 @@ rm -r blocked
 
 help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
 [ -s stderr ] && fail "--help: something on stderr"
-for option in help map cells entropy alpha filter compass loops strategy information navigation radius bounds no-go return duration seed start resolution threads output quiet; do
+for option in help map cells frontiers entropy alpha filter compass loops strategy information navigation radius bounds no-go return duration seed start resolution threads output quiet; do
   grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
 done
 

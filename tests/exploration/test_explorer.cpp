@@ -5,11 +5,13 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "incognita/entropy/shannon.hpp"
 #include "incognita/entropy/tsallis.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
+#include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/metrics/coverage.hpp"
 #include "incognita/metrics/visible_floor.hpp"
@@ -625,6 +627,54 @@ TEST_CASE("explorer parameters out of bounds are refused by name and value") {
   refused([](auto& p) { p.thresholds.free_below = 0.5F; }, "OccupancyThresholds", "free_below", "0.5");
   refused([](auto& p) { p.frontier.length_max_m = -4.0; }, "FrontierParams", "length_max_m", "-4");
   refused([](auto& p) { p.travel.robot_radius_m = -0.2; }, "TravelParams", "robot_radius_m", "-0.2");
+}
+
+TEST_CASE("Uncertainty frontiers are gone to as well, each once, and the exploration ends") {
+  std::size_t goals[2] = {0, 0};
+  for (const bool by_uncertainty : {false, true}) {
+    Simulator simulator = test::office_simulator(0.9, 21, 360);
+    ExplorerParams params;
+    params.threads = 1;
+    params.information = FrontierInformation::size;
+    if (by_uncertainty) params.uncertainty.emplace();
+    // A filter that becomes unsure while it drives, and is never corrected: leaps stay.
+    params.position_sigma_max_m = 10.0;
+    const DeadReckoning filter({MotionNoise{0.5, 0.0}, PoseBelief{}});
+    Explorer<Map<Dispersion>, Behavioral, DeadReckoning> explorer(params, Map<Dispersion>{}, Behavioral{}, filter);
+    const test::Mission mission = test::run_mission(explorer, simulator, 90.0);
+    goals[by_uncertainty ? 1 : 0] = mission.goals_m.size();
+    REQUIRE(explorer.stopped());
+    CHECK(*explorer.stopped() != StopReason::lost);
+    CHECK(simulator.collisions() == 0);
+  }
+  CHECK(goals[1] > goals[0]);
+}
+
+TEST_CASE("Uncertainty frontiers need cells that know of it, and information that sees it") {
+  ExplorerParams params;
+  params.uncertainty.emplace();
+  CHECK_THROWS_WITH((Explorer<Map<Dispersion>>(params)), Catch::Matchers::Contains("information other than big"));
+  params.information = FrontierInformation::size;
+  CHECK_NOTHROW(Explorer<Map<Dispersion>>(params));
+  CHECK_THROWS_WITH((Explorer<>(params)), Catch::Matchers::Contains("cells know their dispersion"));
+  params.uncertainty->gradient_min_m = -1.0;
+  CHECK_THROWS_WITH((Explorer<Map<Dispersion>>(params)), Catch::Matchers::Contains("gradient_min_m is -1"));
+}
+
+TEST_CASE("A map without floor is not complete, unless it stays without") {
+  const auto explore = [](double pass, double duration_s) {
+    Dispersion::Params cells;
+    cells.pass = pass;
+    Simulator simulator = test::office_simulator(0.9, 21, 360);
+    ExplorerParams params;
+    params.threads = 1;
+    Explorer<Map<Dispersion>, Behavioral, DeadReckoning> explorer(params, Map<Dispersion>({}, Dispersion(cells)));
+    test::run_mission(explorer, simulator, duration_s);
+    return std::pair(explorer.stopped(), simulator.distance_m());
+  };
+  CHECK(explore(-0.4, 2.0).second > 0.2);               // floor is known after three scans
+  CHECK_FALSE(explore(-1.0 / 512.0, 2.0).first);        // not yet
+  CHECK(explore(-1.0 / 512.0, 15.0).first.has_value());  // it stands, and waits no longer
 }
 
 }  // namespace incognita

@@ -210,6 +210,14 @@ TEST_CASE("A map of dispersion equals a slow reference", "[dispersion]") {
   }
 }
 
+TEST_CASE("A pose that is known to nothing leaves cells finite", "[dispersion]") {
+  Map<Dispersion> map;
+  for (const double variance_m2 : {1e6, 1e20, 1e40}) {
+    map.update(Scan<2>(circular_beams(60, 5.0)), {}, Eigen::Vector3d(variance_m2, variance_m2, 1.0).asDiagonal());
+    for (const Dispersion::State& state : map.grid().values()) REQUIRE(std::isfinite(state.dispersion_log_odds));
+  }
+}
+
 TEST_CASE("Dispersion cells keep the laws of a cell policy", "[dispersion]") {
   CHECK(check_cell_policy_laws(Dispersion()).text() == "");
   Dispersion::Params params;
@@ -229,6 +237,10 @@ TEST_CASE("Dispersion refuses bad parameters", "[dispersion]") {
     return Dispersion(params);
   };
   REQUIRE_THROWS_WITH(with([](auto& p) { p.sigma_max_m = 0.0; }), Contains("sigma_max_m is 0"));
+  REQUIRE_THROWS_WITH(with([](auto& p) { p.sigma_max_m = 0.01; }), Contains("sigma_max_m is 0.01"));   // beta is 1 to a view
+  REQUIRE_THROWS_WITH(with([](auto& p) { p.sigma_max_m = 1e-6; }), Contains("sigma_max_m is 1e-06"));  // and to a double
+  REQUIRE_THROWS_WITH(with([](auto& p) { p.sigma_max_m = 1e6; }), Contains("sigma_max_m is 1e+06"));
+  REQUIRE_NOTHROW(with([](auto& p) { p.sigma_max_m = 0.02; }));
   REQUIRE_THROWS_WITH(with([](auto& p) { p.box_side_m = -0.1; }), Contains("box_side_m is -0.1"));
   REQUIRE_THROWS_WITH(with([](auto& p) { p.kappa = 1.5; }), Contains("kappa is 1.5, but must be in [0, 1]"));
   REQUIRE_THROWS_WITH(with([](auto& p) { p.kappa = -0.1; }), Contains("kappa"));

@@ -161,6 +161,32 @@ TEST_CASE("Three dimensions that are nearly one line are one dimension", "[dispe
   }
 }
 
+TEST_CASE("Wide boxes of three dimensions that hang together are no harder than others", "[dispersion]") {
+  // A tolerance below rounding made this take ten seconds.
+  Matrix<3> covariance;
+  covariance << 1.0, 0.979, 0.972, 0.979, 1.0, 0.904, 0.972, 0.904, 1.0;
+  double before = 0.0;
+  for (const double side : {3.3, 6.6, 9.9, 13.0}) {
+    const double p = dispersion_probability<3>(covariance, Vector<3>::Constant(side));
+    Matrix<2> pair;
+    pair << 1.0, 0.904, 0.904, 1.0;
+    const double marginal = std::erf(0.5 * side / std::numbers::sqrt2);
+    REQUIRE(p > before);
+    REQUIRE(p <= dispersion_probability<2>(pair, Vector<2>::Constant(side)) + 1e-10);  // one condition more
+    REQUIRE(p >= std::pow(marginal, 3));                                               // Sidak's inequality
+    before = p;
+  }
+  int calls = 0;
+  const double integral = incognita::integrate(
+      [&](double x) {
+        ++calls;
+        return std::exp(-x * x);
+      },
+      -3.0, 3.0, 1e-18);
+  REQUIRE(integral == Approx(std::sqrt(std::numbers::pi) * std::erf(3.0)).epsilon(1e-14));
+  REQUIRE(calls < 2000);
+}
+
 TEST_CASE("The example of Appendix A.2", "[dispersion]") {
   const Matrix<3> tolerated = Vector<3>(4.0, 4.0, 4e-4).asDiagonal();
   const Vector<3> sides(0.1, 0.1, 0.002);
@@ -199,6 +225,7 @@ TEST_CASE("Log-odds keep their digits where the probability is 1 to a double", "
     REQUIRE(dispersion_log_odds<3>(Matrix<3>::Identity(), Vector<3>::Constant(2.0 * half_side)) ==
             Approx(expected3).epsilon(1e-9));
   }
+  REQUIRE(dispersion_probability<2>(Matrix<2>::Identity(), Vector<2>::Constant(1e-170)) > 0.0);
   REQUIRE(dispersion_log_odds<2>(1e-12 * Matrix<2>::Identity(), Vector<2>::Constant(1.0)) <= 700.0);
 }
 

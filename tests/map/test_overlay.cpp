@@ -78,6 +78,10 @@ void compare_with_copy(const Cell& policy, int rounds) {
       ++states;
       REQUIRE(Cell::log_odds(before) == map.log_odds(index));
       REQUIRE(Cell::log_odds(after) == copy.log_odds(index));
+      if constexpr (DispersionPolicy<Cell>) {
+        const auto& copied = copy.grid()[copy.grid().offset_of(index)];
+        REQUIRE(policy.dispersion_log_odds(after) == policy.dispersion_log_odds(copied));
+      }
     });
     REQUIRE(states + overlay.cleared_count() == cells);
     for (Offset offset = 0; offset < static_cast<Offset>(map.grid().size()); ++offset) {

@@ -1,7 +1,10 @@
 #include <Eigen/Core>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -190,6 +193,8 @@ TEST_CASE("A tree refuses what it cannot grow in", "[planning]") {
   params.samples = 0;
   REQUIRE_THROWS_WITH(grow(kRoom, params), Contains("samples is 0"));
   REQUIRE_THROWS_WITH(grow({{0.0, 0.0}, {0.0, 5.0}}, {}), Contains("the side of the box is 0"));
+  REQUIRE_THROWS_WITH(RandomTree<LengthCost>({std::numeric_limits<double>::quiet_NaN(), 1.0}, kRoom, is_clear, {}, random),
+                      Contains("a coordinate of the root is nan"));
   LandmarkCostParams cost;
   cost.cell_m = 0.0;
   REQUIRE_THROWS_WITH(LandmarkCost<Beacons>({}, cost), Contains("cell_m is 0"));

@@ -12,7 +12,7 @@ namespace incognita {
 /// measured count as much as the map has room for. A map is what has a grid() of states, CellType::log_odds(state) and
 /// resolution_m(). O(cells).
 template <class Map>
-[[nodiscard]] double map_entropy_by_size(const Map& map) {
+[[nodiscard]] double map_entropy_nats_by_size(const Map& map) {
   double sum_nats = 0.0;
   for (const auto& state : map.grid().values()) {
     // H(p) = ln(1 + e^l) - p l, of the smaller of p and 1 - p.
@@ -41,7 +41,7 @@ template <class Map>
 [[nodiscard]] double map_information_difference_bits(const Map& map, double alpha) {
   const double renyi_bits = map_renyi_bits(map, alpha);
   const double cell_size = std::pow(map.resolution_m(), Map::dimension);
-  return map_entropy_by_size(map) / (cell_size * std::numbers::ln2) - renyi_bits;
+  return map_entropy_nats_by_size(map) / (cell_size * std::numbers::ln2) - renyi_bits;
 }
 
 }  // namespace incognita

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "incognita/exploration/strategy.hpp"
 #include "incognita/frontier/frontier.hpp"
 #include "incognita/frontier/frontier_layer.hpp"
+#include "incognita/frontier/uncertainty_frontier.hpp"
 #include "incognita/grid/traversal.hpp"
 #include "incognita/map/learned_cells.hpp"
 #include "incognita/planning/closed_cells.hpp"
@@ -69,6 +71,9 @@ class Explorer {
         shut_passages_(params.set_aside),
         reached_(slam_.map().grid().box()) {
     params_.validate();
+    if (params_.uncertainty && !DispersionPolicy<Cell>) {
+      throw std::invalid_argument("Explorer: uncertainty needs a map whose cells know their dispersion");
+    }
     static_cast<void>(visibility());  // refuses a range that cells as large as the map's leave nothing of
     rebuild_layers();
   }
@@ -184,10 +189,10 @@ class Explorer {
     return allowed;
   }
 
-  /// The frontiers of the map as it is now, of the allowed area. O(n log n) for n cells of them. The candidates of the last
-  /// decision are in decision().
+  /// The frontiers of the map as it is now, of the allowed area; the uncertainty frontiers among them are those of the last decision.
+  /// O(n log n) for n cells of them. The candidates of the last decision are in decision().
   [[nodiscard]] std::vector<Frontier<2>> frontiers() const {
-    return cluster_frontier(map().lattice(), frontier_.cells(), params_.frontier);
+    return cluster_frontier(map().lattice(), frontier_cells(), params_.frontier);
   }
 
   /// Where to go, in the map's frame; none before the first decision and after the last.
@@ -218,6 +223,33 @@ class Explorer {
     learned_.follow(occupancy_);
     closed_.grow_to_include(occupancy_.grid().box());
     frontier_.rebuild(occupancy_, closed_bits());
+  }
+
+  [[nodiscard]] bool is_frontier(const Index<2>& cell) const {
+    return frontier_.contains(cell) || std::binary_search(uncertain_.begin(), uncertain_.end(), cell, is_stored_before<2>);
+  }
+
+  /// Of both kinds, in storage order.
+  [[nodiscard]] std::vector<Index<2>> frontier_cells() const {
+    std::vector<Index<2>> cells = frontier_.cells();
+    if (uncertain_.empty()) return cells;
+    for (const Index<2>& cell : uncertain_) {
+      if (!frontier_.contains(cell)) cells.push_back(cell);
+    }
+    std::sort(cells.begin(), cells.end(), is_stored_before<2>);
+    return cells;
+  }
+
+  /// O(cells of the map).
+  void find_uncertain() {
+    if constexpr (DispersionPolicy<Cell>) {
+      if (!params_.uncertainty) return;
+      uncertain_ = detect_uncertainty_frontier(uncertainty_map(map()), UncertaintyOfDispersion(map().cell()).tolerated_m(),
+                                               classify(map(), params_.thresholds), *params_.uncertainty);
+      std::erase_if(uncertain_, [&](const Index<2>& cell) {
+        return occupancy_.grid().value(cell) != Occupancy::free || (!closed_.none() && closed_.bits().get(cell));
+      });
+    }
   }
 
   [[nodiscard]] bool knows_floor() {
@@ -380,12 +412,12 @@ class Explorer {
   [[nodiscard]] bool is_informative(const Candidate& goal) const {
     std::vector<Index<2>> left;
     for (const Index<2>& cell : goal.frontier) {
-      if (frontier_.contains(cell)) left.push_back(cell);
+      if (is_frontier(cell)) left.push_back(cell);
     }
     const auto is_enough = [&](const std::vector<Index<2>>& cells) {
       return incognita::is_informative(goal.viewpoint, cells, visibility(), params_.information_min_m2);
     };
-    return is_enough(left) || is_enough(frontier_.cells());
+    return is_enough(left) || is_enough(frontier_cells());
   }
 
   /// A drive may take three times as long as at full speed, and time to turn: by the longest way since it set out, as ways that are
@@ -410,6 +442,7 @@ class Explorer {
     const OccupancyGrid<2>& occupancy = occupancy_.grid();
     if (failed_) set_aside_.add(*failed_, occupancy);
     failed_.reset();
+    find_uncertain();
     const std::vector<Frontier<2>> frontiers = this->frontiers();
     if (frontiers.empty()) {
       const bool is_outside = !closed_.none() && closed_.bits().get(map().lattice().index_of(belief().pose.position()));
@@ -418,7 +451,7 @@ class Explorer {
 
     search_ways();
     std::vector<FrontierView> views =
-        find_views(frontiers, [&](const Index<2>& cell) { return frontier_.contains(cell); },
+        find_views(frontiers, [&](const Index<2>& cell) { return is_frontier(cell); },
                    [&](const Index<2>& cell) { return search_.ways().reaches(cell); }, visibility(),
                    params_.information_min_m2, viewpoints_);
     if (views.empty()) return end(StopReason::nothing_reachable);
@@ -475,6 +508,7 @@ class Explorer {
   std::optional<Retreat> retreat_;
   bool must_decide_ = false;
   bool path_was_clear_ = true;  // when last asked
+  std::vector<Index<2>> uncertain_;  // cells of uncertainty frontiers at the last decision, in storage order
   bool knows_floor_ = false;  // of any free cell, ever
   bool is_paused_ = false;
   bool is_returning_ = false;

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <limits>
+#include <optional>
+#include <stdexcept>
 
 #include "incognita/exploration/information_gain.hpp"
 #include "incognita/exploration/frontier_view.hpp"
 #include "incognita/exploration/set_aside.hpp"
 #include "incognita/exploration/strategy.hpp"
 #include "incognita/frontier/detection.hpp"
+#include "incognita/frontier/uncertainty_frontier.hpp"
 #include "incognita/map/occupancy.hpp"
 #include "incognita/planning/allowed_area.hpp"
 #include "incognita/planning/collision_guard.hpp"
@@ -27,6 +30,10 @@ struct ExplorerParams {
   RetreatParams retreat;
   GainParams gain;
   SetAsideParams set_aside;
+  /// When set, uncertainty frontiers are gone to as well (Sansoni et al., 3.3): what was seen at a bad moment is seen again. Each is
+  /// visited once, until the map around it changes. For maps of a DispersionPolicy, and information that is not of the path, which
+  /// knows occupancy alone.
+  std::optional<UncertaintyFrontierParams> uncertainty;
   AllowedArea area;                        ///< in the map's frame; the start must lie in it, with clearance. No path leaves it
   Strategy strategy = Strategy::last_mile;
   FrontierInformation information = FrontierInformation::big;
@@ -54,6 +61,12 @@ struct ExplorerParams {
     gain.validate();
     set_aside.validate();
     area.validate();
+    if (uncertainty) {
+      uncertainty->validate();
+      if (is_of_path(information)) {
+        throw std::invalid_argument("ExplorerParams: uncertainty needs information other than big and log_big");
+      }
+    }
     require_non_negative("ExplorerParams", "travel_offset_m", travel_offset_m);
     require(candidates_max >= 1, "ExplorerParams", "candidates_max", candidates_max, ">= 1");
     require_positive("ExplorerParams", "visibility_tolerance_m", visibility_tolerance_m);

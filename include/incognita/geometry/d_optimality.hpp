@@ -1,6 +1,7 @@
 /// The size of a covariance as one number.
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 
 #include "incognita/core/error.hpp"
@@ -11,17 +12,18 @@ namespace incognita {
 /// symmetric and positive definite. O(n^3).
 template <class Matrix>
 [[nodiscard]] double log_determinant(const Matrix& covariance, const char* where = "log_determinant") {
-  const auto size = covariance.rows();
+  const Eigen::Index size = covariance.rows();
   require(size > 0 && covariance.cols() == size, where, "the number of columns", static_cast<double>(covariance.cols()),
           "that of the rows, > 0");
   typename Matrix::PlainObject factor = covariance;
   double sum = 0.0;
-  for (auto column = size - size; column < size; ++column) {
-    for (auto row = column; row < size; ++row) {
+  for (Eigen::Index i = 0; i < size; ++i) require_positive(where, "a variance", covariance(i, i));
+  for (Eigen::Index column = 0; column < size; ++column) {
+    for (Eigen::Index row = column; row < size; ++row) {
       const double difference = std::abs(covariance(row, column) - covariance(column, row));
-      const double scale = std::abs(covariance(row, column)) + std::abs(covariance(column, row));
+      const double scale = std::sqrt(covariance(row, row)) * std::sqrt(covariance(column, column));
       require(difference <= 1e-9 * scale, where, "the covariance's asymmetry", difference, "0: a covariance is symmetric");
-      for (auto k = column - column; k < column; ++k) factor(row, column) -= factor(row, k) * factor(column, k);
+      for (Eigen::Index k = 0; k < column; ++k) factor(row, column) -= factor(row, k) * factor(column, k);
       if (row == column) {
         const double pivot = factor(column, column);
         require(std::isfinite(pivot) && pivot > 0.0, where, "a pivot of the covariance", pivot,

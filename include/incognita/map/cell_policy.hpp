@@ -61,4 +61,13 @@ concept PoseAwarePolicy =
 template <class P>
 concept OncePolicy = CellPolicy<P> && P::once_a_scan;
 
+/// A policy may know how certain the place of what a cell holds is, as log-odds of a dispersion probability (map/cells/dispersion.hpp),
+/// and what is just tolerated, beta.
+template <class P>
+concept DispersionPolicy = CellPolicy<P> && requires(const P& policy, const typename P::State& state) {
+  { policy.dispersion_log_odds(state) } -> std::same_as<float>;
+  { policy.beta() } -> std::same_as<double>;
+  { state.is_explored } -> std::convertible_to<bool>;
+};
+
 }  // namespace incognita

@@ -1,6 +1,7 @@
 /// Dispersion as a length: how uncertain the place of what was measured is, cell by cell (Sansoni et al., 3.3).
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 
@@ -23,7 +24,7 @@ namespace incognita {
 template <class Vector>
 [[nodiscard]] double gauss_scale(const Vector& sides) {
   double log_product = 0.0;
-  for (auto i = sides.size() - sides.size(); i < sides.size(); ++i) {
+  for (Eigen::Index i = 0; i < sides.size(); ++i) {
     require_positive("gauss_scale", "a side", sides[i]);
     log_product += std::log(sides[i]);
   }

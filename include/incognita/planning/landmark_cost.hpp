@@ -31,7 +31,7 @@ struct LandmarkCostParams {
 };
 
 /// C = d + d_odo + 2 sigma_l / (c Q), (A.15), a WayCost: the length of a way in cells, the length of what is driven without a landmark
-/// in sight since the last, and how well that one is known. for_each_in_sight(place_m, visit) calls visit(sigma_m) for each
+/// in sight since the last, and how well that one is known (0 before the first, as the paper has it, so that the first may cost more than none). for_each_in_sight(place_m, visit) calls visit(sigma_m) for each
 /// landmark that is seen from a place, with mean_sigma of its covariance.
 template <class ForEachInSight>
 class LandmarkCost {

@@ -68,12 +68,13 @@ class RandomTree {
   /// a radius, the new place's parent is the one within it that makes its cost least, and those within it that are cheaper by way of
   /// the new place become its children. is_clear(from, to) says whether a straight way may be driven. States are carried on to all
   /// that hangs on what was rewired, and no place becomes its own ancestor, which costs that fall along a way would ask for.
-  /// Throws std::invalid_argument for bad parameters or a box without area. O(samples * places).
+  /// Throws std::invalid_argument for bad parameters, a root that is not finite, or a box without area. O(samples * places).
   template <class IsClear>
   RandomTree(const Eigen::Vector2d& root_m, const Box<Eigen::Vector2d>& box_m, IsClear&& is_clear, const Cost& cost, Random& random,
              const RandomTreeParams& params = {}) {
     params.validate();
     for (int axis = 0; axis < 2; ++axis) {
+      require(std::isfinite(root_m[axis]), "RandomTree", "a coordinate of the root", root_m[axis], "finite");
       require_positive("RandomTree", "the side of the box", box_m.upper[axis] - box_m.lower[axis]);
     }
     const State start = cost.start();
@@ -93,7 +94,7 @@ class RandomTree {
       around.clear();
       if (params.radius_m > 0.0) {
         for (std::size_t other = 0; other < nodes_.size(); ++other) {
-          if (other != nearest && distance(nodes_[other].place_m, place_m) <= params.radius_m) around.push_back(other);
+          if (distance(nodes_[other].place_m, place_m) <= params.radius_m) around.push_back(other);
         }
       }
       add(place_m, nearest, around, is_clear, cost);

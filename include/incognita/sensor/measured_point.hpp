@@ -30,7 +30,7 @@ struct MeasuredPoint {
 /// (10) of Sansoni et al. and its covariance to first order: the point at range_m along `direction`, a unit vector in the axes of
 /// the map, from a sensor at `position_m`. The covariance is a polynomial of the range,
 ///   P + range (n g^T + g n^T) + range^2 (yaw variance + bearing variance) n n^T + range variance u u^T,
-/// with u the direction, n the normal to its left, P the position's covariance and g its covariance with the yaw.
+/// with u the direction, n the normal to its left, P the position's covariance and g its covariance with the yaw. Nothing is checked; RangeBearingNoise::validate checks the noise.
 [[nodiscard]] inline MeasuredPoint measured_point(const Eigen::Vector2d& position_m, const Pose2::Covariance& pose_covariance,
                                                   const Eigen::Vector2d& direction, double range_m,
                                                   const RangeBearingNoise& noise) {

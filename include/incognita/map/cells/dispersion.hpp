@@ -28,14 +28,16 @@ class BasicDispersion {
   static constexpr bool once_a_scan = true;  ///< see OncePolicy
 
   struct Params {
-    double sigma_max_m = 1.0;   ///< the tolerated standard deviation along each axis, > 0: what is explored against what is revisited
+    /// The tolerated standard deviation along each axis: what is explored against what is revisited. More than an eighth of the box's
+    /// side or so: a view does not tell smaller ones apart.
+    double sigma_max_m = 1.0;
     double box_side_m = 0.1;    ///< s_1 = s_2 of (11), > 0
     double kappa = 0.5;         ///< of (15), in [0, 1]
     RangeBearingNoise noise;    ///< of the sensor
-    double hit = 0.85;          ///< added to the occupancy's log-odds by a hit, in (0, 31]
-    double pass = -0.4;         ///< by a pass, in [-31, 0)
-    double log_odds_min = -10.0;  ///< in [-31, 0)
-    double log_odds_max = 10.0;   ///< in (0, 31]
+    double hit = 0.85;          ///< added to the occupancy's log-odds by a hit, in [1/512, 31]
+    double pass = -0.4;         ///< by a pass, in [-31, -1/512]
+    double log_odds_min = -10.0;  ///< in [-31, -1/512]
+    double log_odds_max = 10.0;   ///< in [1/512, 31]
   };
 
   static constexpr int occupancy_zero = 1 << 14;
@@ -74,6 +76,8 @@ class BasicDispersion {
     const Eigen::Matrix2d tolerated = params.sigma_max_m * params.sigma_max_m * Eigen::Matrix2d::Identity();
     beta_ = incognita::dispersion_probability<2>(tolerated, sides);
     beta_log_odds_ = static_cast<float>(incognita::dispersion_log_odds<2>(tolerated, sides));
+    require(beta_log_odds_ > View::log_odds_min && beta_log_odds_ < View::log_odds_max, "Dispersion", "sigma_max_m", params.sigma_max_m,
+            "between an eighth of box_side_m and a thousand times it, or so");
   }
 
   [[nodiscard]] const Params& params() const { return params_; }
@@ -90,7 +94,7 @@ class BasicDispersion {
   }
 
   /// A beam along x, read at 0 m, from a position that has this variance along each axis and a heading that is known. Passes lie at
-  /// the negative of their residual. For those who update cells without a map.
+  /// the negative of their residual. For those who update cells without a map; made from a view of 100 m, so less exact near the robot.
   [[nodiscard]] Beam beam(double variance_m2) const {
     Pose2::Covariance covariance = Pose2::Covariance::Zero();
     covariance(0, 0) = covariance(1, 1) = variance_m2;
