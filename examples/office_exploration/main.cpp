@@ -1,12 +1,9 @@
 // Explores office floors by every strategy and measure of Isleyen et al., section V, and compares how far the robot drives.
-#include <unistd.h>
-
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +14,7 @@
 #include "support/chart.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
+#include "support/progress.hpp"
 
 namespace office_exploration {
 namespace {
@@ -34,18 +32,8 @@ std::vector<Series> chosen_experiments(const Options& options) {
   return all;
 }
 
-/// Drawn over on a terminal; nothing elsewhere.
-void print_progress(std::size_t done, std::size_t all) {
-  if (isatty(STDOUT_FILENO) != 1) return;
-  std::printf("\r%zu of %zu missions%s", done, all, done == all ? "\n" : "");
-  std::fflush(stdout);
-}
-
 void run(const Options& options) {
-  // What would fail minutes later fails now.
-  if (!examples::gnuplot_available()) {
-    throw std::runtime_error("gnuplot is missing; install it to draw charts (Debian: gnuplot-nox)");
-  }
+  examples::require_gnuplot();  // what would fail minutes later fails now
   std::vector<Series> all = chosen_experiments(options);
   const std::vector<Figure> figures = figures_of(all);
   std::vector<std::string> files{"runs.csv", "curves.csv"};
@@ -56,7 +44,7 @@ void run(const Options& options) {
   examples::OutputFolder output(options.output, files);
 
   std::function<void(std::size_t, std::size_t)> report;
-  if (!options.quiet) report = print_progress;
+  if (!options.quiet) report = examples::progress_of("missions");
   run_trials(all, options.threads, report);
 
   write_runs(output.staged("runs.csv"), all);

@@ -29,15 +29,7 @@ struct Options {
       ->type_name("N")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "how many missions run side by side; 0: as many as OpenMP takes")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_option("--output", options.output, "folder for the results")
-      ->type_name("DIR")
-      ->check(examples::refuse_empty)
-      ->capture_default_str();
-  app.add_flag("--quiet", options.quiet, "print nothing but errors");
+  examples::add_trial_options(app, "missions", options.threads, options.output, options.quiet);
   app.parse(argc, argv);
   return options;
 }

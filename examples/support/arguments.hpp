@@ -18,6 +18,20 @@ namespace examples {
   return text.empty() ? "is empty" : "";
 }
 
+/// The options of programs that run many trials: how many side by side, where results go, and whether anything is printed. `trials` is
+/// what trials are called.
+inline void add_trial_options(CLI::App& app, const std::string& trials, int& threads, std::string& output, bool& quiet) {
+  app.add_option("--threads", threads, "how many " + trials + " run side by side; 0: as many as OpenMP takes")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--output", output, "folder for the results")
+      ->type_name("DIR")
+      ->check(refuse_empty)
+      ->capture_default_str();
+  app.add_flag("--quiet", quiet, "print nothing but errors");
+}
+
 /// The numbers of a text that separates them by commas. `form` says what they are, as "X,Y with finite
 /// numbers in metres". Throws CLI::ValidationError unless there are Count of them and all are finite.
 template <std::size_t Count>

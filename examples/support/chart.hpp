@@ -49,6 +49,13 @@ struct Chart {
   return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
 }
 
+/// Throws std::runtime_error when it is not.
+inline void require_gnuplot() {
+  if (!gnuplot_available()) {
+    throw std::runtime_error("gnuplot is missing; install it to draw charts (Debian: gnuplot-nox)");
+  }
+}
+
 namespace detail {
 
 /// A gnuplot string constant.
@@ -124,9 +131,7 @@ inline std::string script(const std::filesystem::path& path, const std::vector<C
 /// std::invalid_argument when a series is malformed and std::runtime_error, in one line, when gnuplot is
 /// missing or fails. Not thread safe: it ignores SIGPIPE while gnuplot runs.
 inline void write_chart_png(const std::filesystem::path& path, const std::vector<Chart>& panels) {
-  if (!gnuplot_available()) {
-    throw std::runtime_error("gnuplot is missing; install it to draw charts (Debian: gnuplot-nox)");
-  }
+  require_gnuplot();
   const std::filesystem::path part = path.string() + ".part";
   const std::string commands = detail::script(part, panels);
 

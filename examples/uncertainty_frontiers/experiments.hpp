@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,14 +33,8 @@ inline constexpr double corridor_sigma_max_m = 1.0;
   const KnownFloor floor(shot.map, robot.position_m());
   shot.classical = objectives({"", false, false, corridor_sigma_max_m}, shot.map, floor);
   shot.uncertain = objectives({"", true, false, corridor_sigma_max_m}, shot.map, floor);
-  const incognita::UncertaintyOfDispersion uncertainty_m(shot.map.cell());
-  std::size_t explored = 0;
-  for (const incognita::Dispersion::State& state : shot.map.grid().values()) {
-    if (!state.is_explored) continue;
-    ++explored;
-    shot.mean_uncertainty_m += uncertainty_m(static_cast<double>(shot.map.cell().dispersion_log_odds(state)));
-  }
-  shot.mean_uncertainty_m /= static_cast<double>(explored);
+  const std::vector<double> all_m = explored_uncertainties_m(shot.map);
+  shot.mean_uncertainty_m = std::accumulate(all_m.begin(), all_m.end(), 0.0) / static_cast<double>(all_m.size());
   return shot;
 }
 

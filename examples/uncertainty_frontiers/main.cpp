@@ -1,16 +1,14 @@
 // Shows what uncertainty maps and frontiers are good for, by the experiments of Sansoni et al., section 5.
-#include <unistd.h>
-
 #include <cstddef>
 #include <cstdio>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "support/chart.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
+#include "support/progress.hpp"
 #include "uncertainty_frontiers/experiments.hpp"
 #include "uncertainty_frontiers/figures.hpp"
 #include "uncertainty_frontiers/options.hpp"
@@ -19,18 +17,8 @@
 namespace uncertainty_frontiers {
 namespace {
 
-/// Drawn over on a terminal; nothing elsewhere.
-void print_progress(std::size_t done, std::size_t all) {
-  if (isatty(STDOUT_FILENO) != 1) return;
-  std::printf("\r%zu of %zu trials%s", done, all, done == all ? "\n" : "");
-  std::fflush(stdout);
-}
-
 void run(const Options& options) {
-  // What would fail minutes later fails now.
-  if (!examples::gnuplot_available()) {
-    throw std::runtime_error("gnuplot is missing; install it to draw charts (Debian: gnuplot-nox)");
-  }
+  examples::require_gnuplot();  // what would fail minutes later fails now
   const auto chosen = [&](const char* name) { return options.experiment == name || options.experiment == "all"; };
   std::vector<std::string> files;
   if (chosen("figures")) files.push_back("figures.png");
@@ -51,7 +39,7 @@ void run(const Options& options) {
   if (chosen("hall")) {
     all = hall_settings();
     std::function<void(std::size_t, std::size_t)> report;
-    if (!options.quiet) report = print_progress;
+    if (!options.quiet) report = examples::progress_of("trials");
     run_trials(all, seeds, options.threads, report);
     write_trials(output.staged("trials.csv"), all);
     draw_box_plots(output.staged("siren.png"), all, 1);

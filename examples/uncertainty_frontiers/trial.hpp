@@ -44,6 +44,16 @@ inline constexpr double distance_max_m = 400.0;
 inline constexpr std::size_t visits_max = 2;    ///< an objective that is still there after so many visits is given up
 inline constexpr double same_place_m = 0.75;
 
+/// U of each cell that was seen, in storage order.
+[[nodiscard]] inline std::vector<double> explored_uncertainties_m(const Belief& map) {
+  const incognita::UncertaintyOfDispersion uncertainty_m(map.cell());
+  std::vector<double> all_m;
+  for (const incognita::Dispersion::State& state : map.grid().values()) {
+    if (state.is_explored) all_m.push_back(uncertainty_m(static_cast<double>(map.cell().dispersion_log_odds(state))));
+  }
+  return all_m;
+}
+
 [[nodiscard]] inline Trial run_trial(const Setting& setting, std::uint64_t seed) {
   const Place place = hall(setting.complete);
   Robot robot(place, start_m(setting.start), {judged_sigmas_max_m[0], judged_sigmas_max_m[1]}, seed);
@@ -80,11 +90,7 @@ inline constexpr double same_place_m = 0.75;
 
   for (std::size_t i = 0; i < 2; ++i) trial.siren_nats_m2[i] = incognita::map_signed_relative_entropy_nats_m2(robot.map(i));
   const Belief& map = robot.map(own);
-  const incognita::UncertaintyOfDispersion uncertainty_m(map.cell());
-  std::vector<double> uncertainties_m;
-  for (const incognita::Dispersion::State& state : map.grid().values()) {
-    if (state.is_explored) uncertainties_m.push_back(uncertainty_m(static_cast<double>(map.cell().dispersion_log_odds(state))));
-  }
+  std::vector<double> uncertainties_m = explored_uncertainties_m(map);
   trial.explored_m2 = static_cast<double>(uncertainties_m.size()) * map.resolution_m() * map.resolution_m();
   trial.uncertainty_m = median(std::move(uncertainties_m));
   std::vector<double> landmark_sigmas_m;
