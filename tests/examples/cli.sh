@@ -25,3 +25,21 @@ refused() {
   [ "$before" = "$after" ] || fail "$name: left something behind: $after"
   rm -f ../stdout.$$ ../stderr.$$
 }
+
+# run_quietly NAME ARGUMENTS...: exit code 0, nothing printed, results in the folder NAME.
+run_quietly() {
+  local name=$1
+  shift
+  "$program" --quiet --output "$name" "$@" >stdout 2>stderr || fail "$name: exit code $?: $(cat stderr)"
+  [ -s stdout ] || [ -s stderr ] && fail "$name: --quiet prints"
+}
+
+# help_names OPTIONS...: --help prints to stdout alone and names each option.
+help_names() {
+  local help option
+  help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
+  [ -s stderr ] && fail "--help: something on stderr"
+  for option in "$@"; do
+    grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
+  done
+}

@@ -68,19 +68,11 @@ mkdir -p blocked/overview.png
 output=blocked refused "a result whose name is a folder" overview.png --duration 1e6
 rm -r blocked
 
-help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
-[ -s stderr ] && fail "--help: something on stderr"
-for option in help map cells frontiers entropy alpha filter compass loops strategy information navigation radius bounds no-go return duration seed start resolution threads output quiet; do
-  grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
-done
+help_names help map cells frontiers entropy alpha filter compass loops strategy information navigation radius bounds \
+  no-go return duration seed start resolution threads output quiet
 
 # run NAME ARGUMENTS...: 20 s of a mission into the folder NAME.
-run() {
-  local name=$1
-  shift
-  "$program" --quiet --duration 20 --seed 1 --output "$name" "$@" >stdout 2>stderr || fail "$name: exit code $?: $(cat stderr)"
-  [ -s stdout ] || [ -s stderr ] && fail "$name: --quiet prints"
-}
+run() { run_quietly "$@" --duration 20 --seed 1; }
 run one --threads 1
 run again --threads 1
 run two --threads 2

@@ -81,20 +81,11 @@ mkdir -p blocked/overview.png
 output=blocked refused "a result whose name is a folder" overview.png --log ../inputs/room.json
 rm -r blocked
 
-help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
-[ -s stderr ] && fail "--help: something on stderr"
-for option in help log reference relations frame-angle-deg resolution beams laser no-return usable-range no-return-is \
-  output quiet; do
-  grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
-done
+help_names help log reference relations frame-angle-deg resolution beams laser no-return usable-range no-return-is \
+  output quiet
 
 # run NAME ARGUMENTS...: maps into the folder NAME.
-run() {
-  local name=$1
-  shift
-  "$program" --quiet --output "$name" "$@" >stdout 2>stderr || fail "$name: exit code $?: $(cat stderr)"
-  [ -s stdout ] || [ -s stderr ] && fail "$name: --quiet prints"
-}
+run() { run_quietly "$@"; }
 # value FOLDER KEY: metrics.json has one key a line.
 value() { sed -n "s/^  \"$2\": \(.*[^,]\),\{0,1\}$/\1/p" "$1/metrics.json"; }
 # between FOLDER KEY LOW HIGH

@@ -25,20 +25,10 @@ mkdir -p blocked/runs.csv
 output=blocked refused "a result whose name is a folder" runs.csv --experiment turtlebot
 rm -r blocked
 
-help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
-[ -s stderr ] && fail "--help: something on stderr"
-for option in help experiment poses threads output quiet; do
-  grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
-done
+help_names help experiment poses threads output quiet
 
 # run NAME ARGUMENTS...: the cluttered room from two poses into the folder NAME.
-run() {
-  local name=$1
-  shift
-  "$program" --quiet --experiment turtlebot --poses 2 --output "$name" "$@" >stdout 2>stderr ||
-    fail "$name: exit code $?: $(cat stderr)"
-  [ -s stdout ] || [ -s stderr ] && fail "$name: --quiet prints"
-}
+run() { run_quietly "$@" --experiment turtlebot --poses 2; }
 run one --threads 1
 run two --threads 2
 for file in runs.csv curves.csv; do

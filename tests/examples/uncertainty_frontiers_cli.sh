@@ -23,19 +23,9 @@ mkdir -p blocked/corridors.csv
 output=blocked refused "a result whose name is a folder" corridors.csv --experiment corridors --seeds 1
 rm -r blocked
 
-help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
-[ -s stderr ] && fail "--help: something on stderr"
-for option in help experiment seeds threads output quiet; do
-  grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
-done
+help_names help experiment seeds threads output quiet
 
-# run NAME ARGUMENTS...
-run() {
-  local name=$1
-  shift
-  "$program" --quiet --output "$name" "$@" >stdout 2>stderr || fail "$name: exit code $?: $(cat stderr)"
-  [ -s stdout ] || [ -s stderr ] && fail "$name: --quiet prints"
-}
+run() { run_quietly "$@"; }
 run figures --experiment figures
 [ "$(ls -A figures)" = figures.png ] && [ -s figures/figures.png ] || fail "other figures than promised: $(ls -A figures)"
 run one --experiment corridors --seeds 2 --threads 1

@@ -244,8 +244,7 @@ class Explorer {
   void find_uncertain() {
     if constexpr (DispersionPolicy<Cell>) {
       if (!params_.uncertainty) return;
-      uncertain_ = detect_uncertainty_frontier(uncertainty_map(map()), UncertaintyOfDispersion(map().cell()).tolerated_m(),
-                                               classify(map(), params_.thresholds), *params_.uncertainty);
+      uncertain_ = detect_uncertainty_frontier(map(), params_.thresholds, *params_.uncertainty);
       std::erase_if(uncertain_, [&](const Index<2>& cell) {
         return occupancy_.grid().value(cell) != Occupancy::free || (!closed_.none() && closed_.bits().get(cell));
       });

@@ -66,16 +66,22 @@ template <class Real>
   return cells;
 }
 
-/// The uncertainty frontiers of a map whose cells are a policy such as Dispersion. There are none where all that is known and
+/// The same of a map whose cells are a policy such as Dispersion. O(cells).
+template <class Map>
+[[nodiscard]] std::vector<Index<2>> detect_uncertainty_frontier(const Map& map, const OccupancyThresholds& thresholds = {},
+                                                                const UncertaintyFrontierParams& params = {},
+                                                                UncertaintyScale scale = UncertaintyScale::calibrated) {
+  const double tolerated_m = UncertaintyOfDispersion(map.cell(), scale).tolerated_m();
+  return detect_uncertainty_frontier(uncertainty_map(map, scale), tolerated_m, classify(map, thresholds), params);
+}
+
+/// The uncertainty frontiers of such a map. There are none where all that is known and
 /// tolerated goes over smoothly into the rest: nothing is left to explore with what is tolerated. O(cells).
 template <class Map>
 [[nodiscard]] std::vector<Frontier<2>> find_uncertainty_frontiers(const Map& map, const OccupancyThresholds& thresholds = {},
                                                                   const UncertaintyFrontierParams& params = {},
                                                                   UncertaintyScale scale = UncertaintyScale::calibrated) {
-  const double tolerated_m = UncertaintyOfDispersion(map.cell(), scale).tolerated_m();
-  return cluster_frontier<2>(
-      map.lattice(), detect_uncertainty_frontier(uncertainty_map(map, scale), tolerated_m, classify(map, thresholds), params),
-      params.groups);
+  return cluster_frontier<2>(map.lattice(), detect_uncertainty_frontier(map, thresholds, params, scale), params.groups);
 }
 
 }  // namespace incognita

@@ -89,14 +89,13 @@ class BasicDispersionView {
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) bounded(row, column) = scale * covariance(row, column);
     }
-    const double turn_rad2 = bounded(2, 2) + noise.bearing_rad * noise.bearing_rad;
     constexpr int last = Ranges - 1;
     nodes2_per_m_ = static_cast<float>(last * last / range_max_m);
     const Nodes range_m = Nodes::LinSpaced(0.0F, static_cast<float>(last)).square() / nodes2_per_m_;
     for (int direction = 0; direction < Directions; ++direction) {
       const double angle_rad = direction * (2.0 * std::numbers::pi / Directions);
       columns_[static_cast<std::size_t>(direction)] =
-          log_odds({std::cos(angle_rad), std::sin(angle_rad)}, bounded, turn_rad2, noise.range_m, side_m, range_m);
+          log_odds({std::cos(angle_rad), std::sin(angle_rad)}, bounded, noise, side_m, range_m);
     }
   }
 
@@ -120,17 +119,14 @@ class BasicDispersionView {
  private:
   using Nodes = Eigen::Array<float, Ranges, 1>;
 
-  /// measured_point's covariance along a direction, as polynomials of the range, and its dispersion.
-  [[nodiscard]] static Nodes log_odds(const Eigen::Vector2d& direction, const Pose2::Covariance& covariance, double turn_rad2,
-                                      double range_sigma_m, double side_m, const Nodes& range_m) {
+  /// The dispersion of what is measured along a direction.
+  [[nodiscard]] static Nodes log_odds(const Eigen::Vector2d& direction, const Pose2::Covariance& covariance,
+                                      const RangeBearingNoise& noise, double side_m, const Nodes& range_m) {
     constexpr double least_m2 = 1e-8;  // an exact pose has no spread across a beam at its start
-    const Eigen::Vector2d normal(-direction[1], direction[0]);
     const auto element = [&](int row, int column) -> Nodes {
-      const double still = covariance(row, column) + range_sigma_m * range_sigma_m * direction[row] * direction[column] +
-                           (row == column ? least_m2 : 0.0);
-      const double with_range = normal[row] * covariance(column, 2) + covariance(row, 2) * normal[column];
-      const double with_range2 = turn_rad2 * normal[row] * normal[column];
-      return static_cast<float>(still) + range_m * (static_cast<float>(with_range) + range_m * static_cast<float>(with_range2));
+      const MeasuredCovarianceElement of_range = measured_covariance_element(row, column, covariance, direction, noise);
+      return static_cast<float>(of_range.constant_m2 + (row == column ? least_m2 : 0.0)) +
+             range_m * (static_cast<float>(of_range.linear_m) + range_m * static_cast<float>(of_range.quadratic));
     };
     const Nodes xx = element(0, 0).max(static_cast<float>(least_m2));
     const Nodes yy = element(1, 1).max(static_cast<float>(least_m2));

@@ -27,24 +27,38 @@ struct MeasuredPoint {
   Eigen::Matrix2d covariance_m2;
 };
 
-/// (10) of Sansoni et al. and its covariance to first order: the point at range_m along `direction`, a unit vector in the axes of
-/// the map, from a sensor at `position_m`. The covariance is a polynomial of the range,
+/// An element of the covariance of what is measured along one direction, as a polynomial of the range.
+struct MeasuredCovarianceElement {
+  double constant_m2;
+  double linear_m;
+  double quadratic;
+
+  [[nodiscard]] double at_m2(double range_m) const { return constant_m2 + range_m * (linear_m + range_m * quadratic); }
+};
+
+/// (10) of Sansoni et al. to first order: the element (row, column) of the covariance of a point measured along `direction`, a unit
+/// vector in the axes of the map,
 ///   P + range (n g^T + g n^T) + range^2 (yaw variance + bearing variance) n n^T + range variance u u^T,
-/// with u the direction, n the normal to its left, P the position's covariance and g its covariance with the yaw. Nothing is checked; RangeBearingNoise::validate checks the noise.
+/// with u the direction, n the normal to its left, P the position's covariance and g its covariance with the yaw. Nothing is checked.
+[[nodiscard]] inline MeasuredCovarianceElement measured_covariance_element(int row, int column, const Pose2::Covariance& pose_covariance,
+                                                                           const Eigen::Vector2d& direction,
+                                                                           const RangeBearingNoise& noise) {
+  const Eigen::Vector2d normal(-direction[1], direction[0]);
+  const double turn_rad2 = pose_covariance(2, 2) + noise.bearing_rad * noise.bearing_rad;
+  return {pose_covariance(row, column) + noise.range_m * noise.range_m * direction[row] * direction[column],
+          normal[row] * pose_covariance(column, 2) + pose_covariance(row, 2) * normal[column], turn_rad2 * normal[row] * normal[column]};
+}
+
+/// (10): the point at range_m along `direction` from a sensor at `position_m`, and measured_covariance_element's covariance. Nothing is
+/// checked; RangeBearingNoise::validate checks the noise.
 [[nodiscard]] inline MeasuredPoint measured_point(const Eigen::Vector2d& position_m, const Pose2::Covariance& pose_covariance,
                                                   const Eigen::Vector2d& direction, double range_m,
                                                   const RangeBearingNoise& noise) {
-  const Eigen::Vector2d normal(-direction[1], direction[0]);
-  const double turn_rad2 = pose_covariance(2, 2) + noise.bearing_rad * noise.bearing_rad;
   MeasuredPoint point;
   for (int row = 0; row < 2; ++row) {
     point.mean_m[row] = position_m[row] + range_m * direction[row];
     for (int column = 0; column < 2; ++column) {
-      point.covariance_m2(row, column) =
-          pose_covariance(row, column) +
-          range_m * (normal[row] * pose_covariance(column, 2) + pose_covariance(row, 2) * normal[column]) +
-          range_m * range_m * turn_rad2 * normal[row] * normal[column] +
-          noise.range_m * noise.range_m * direction[row] * direction[column];
+      point.covariance_m2(row, column) = measured_covariance_element(row, column, pose_covariance, direction, noise).at_m2(range_m);
     }
   }
   return point;
