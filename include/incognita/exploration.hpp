@@ -9,6 +9,7 @@
 #include "incognita/exploration/action_aware.hpp"
 #include "incognita/exploration/candidate.hpp"
 #include "incognita/exploration/candidate_search.hpp"
+#include "incognita/exploration/decision_reason.hpp"
 #include "incognita/exploration/explorer.hpp"
 #include "incognita/exploration/explorer_params.hpp"
 #include "incognita/exploration/frontier_information.hpp"

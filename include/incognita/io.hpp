@@ -7,6 +7,7 @@
 /// - io/tum.hpp: read_tum and write_tum, trajectories
 /// - io/robot_log_file.hpp: read_robot_log, scans with odometry, by the file's name
 /// - io/intel_json.hpp, carmen_log.hpp, robot_log.hpp: read_intel_json (nlohmann/json) and read_carmen_log
+/// - io/recording_file.hpp: RecordingWriter and read_recording, runs to be looked at (zlib)
 /// - io/relations.hpp: read_relations, measured relations between poses
 /// - io/polygons.hpp: read_polygons, no-go areas
 /// - io/png.hpp, pgm.hpp, image.hpp: read_png and write_png (libpng), read_pgm and write_pgm
@@ -25,6 +26,7 @@
 #pragma once
 
 #include "incognita/io/atomic_file.hpp"
+#include "incognita/io/bytes.hpp"
 #include "incognita/io/carmen_log.hpp"
 #include "incognita/io/floor_plan.hpp"
 #include "incognita/io/image.hpp"
@@ -41,6 +43,9 @@
 #include "incognita/io/png.hpp"
 #include "incognita/io/polygons.hpp"
 #include "incognita/io/read_file.hpp"
+#include "incognita/io/recording.hpp"
+#include "incognita/io/recording_file.hpp"
+#include "incognita/io/recording_records.hpp"
 #include "incognita/io/relations.hpp"
 #include "incognita/io/robot_log.hpp"
 #include "incognita/io/robot_log_file.hpp"

@@ -15,6 +15,7 @@
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/estimation/slam.hpp"
 #include "incognita/exploration/candidate_search.hpp"
+#include "incognita/exploration/decision_reason.hpp"
 #include "incognita/exploration/explorer_params.hpp"
 #include "incognita/exploration/frontier_view.hpp"
 #include "incognita/exploration/set_aside.hpp"
@@ -33,11 +34,12 @@
 
 namespace incognita {
 
-/// What was decided and between what.
+/// What was decided, between what and why.
 struct Decision {
   double time_s = 0.0;                 ///< since the start
   std::vector<Candidate> candidates;   ///< highest utility first
   std::optional<StopReason> stopped;   ///< set when there is nothing to drive to any more
+  DecisionReason reason = DecisionReason::no_goal;  ///< why it was decided anew
 
   /// The candidate to drive to; null when there is none.
   [[nodiscard]] const Candidate* chosen() const {
@@ -117,8 +119,8 @@ class Explorer {
     // Some cells take several scans to become free: a map without floor says that it is new, unless it stays so.
     if (!knows_floor() && time_s_ < params_.lost_max_s) return false;
     if (is_returning_) return head_for_the_start();
-    if (decision_.chosen() != nullptr && !goal_is_done()) return false;
-    return choose();
+    const std::optional<DecisionReason> reason = decision_.chosen() == nullptr ? DecisionReason::no_goal : done_goal();
+    return reason && choose(*reason);
   }
 
   /// Goes on with what a pause has interrupted; else explores, anew where it had ended or was on its way back: goals that were
@@ -290,12 +292,12 @@ class Explorer {
 
   bool end(StopReason reason) {
     is_returning_ = false;
-    decision_ = {time_s_, {}, reason};
+    decision_ = {time_s_, {}, reason, DecisionReason::ended};
     return true;
   }
 
   void drop_goal() {
-    decision_ = {time_s_, {}, std::nullopt};
+    decision_ = {time_s_, {}, std::nullopt, DecisionReason::no_goal};
     follower_ = PathFollower();
     retreat_.reset();
     failed_.reset();
@@ -332,8 +334,8 @@ class Explorer {
     way_max_m_ = 0.0;
   }
 
-  void drive_to(std::vector<Candidate> candidates) {
-    decision_ = {time_s_, std::move(candidates), std::nullopt};
+  void drive_to(std::vector<Candidate> candidates, DecisionReason reason) {
+    decision_ = {time_s_, std::move(candidates), std::nullopt, reason};
     way_max_m_ = std::max(way_max_m_, decision_.chosen()->path.length_m());
     follower_ = PathFollower(decision_.chosen()->path.points_m(), params_.follow);
     // Where the robot has been it may go though the belief has a wall there: deciding anew would change nothing.
@@ -354,10 +356,12 @@ class Explorer {
 
   bool head_for_the_start() {
     const Eigen::Vector2d start_m(0.0, 0.0);
+    DecisionReason reason = DecisionReason::no_goal;
     if (decision_.chosen() != nullptr) {
       if (is_overdue()) return end(StopReason::nothing_reachable);
       if (!must_decide_ && has_arrived()) return end(StopReason::returned);
-      if (!std::exchange(must_decide_, false) && !path_was_closed()) return false;
+      reason = std::exchange(must_decide_, false) ? DecisionReason::way_in_doubt : DecisionReason::path_closed;
+      if (reason == DecisionReason::path_closed && !path_was_closed()) return false;
     } else {
       set_out();
     }
@@ -372,28 +376,30 @@ class Explorer {
     back.viewpoint = *cell;
     back.path = Polyline(std::move(path_m));
     back.navigation_cost = static_cast<double>(search_.ways().cost_m(*cell));
-    drive_to({back});
+    drive_to({back}, reason);
     return true;
   }
 
-  /// Whether the chosen goal has served; marks it to be set aside where it failed.
-  [[nodiscard]] bool goal_is_done() {
+  /// Why the chosen goal is done with, if it is; marks it to be set aside where it failed.
+  [[nodiscard]] std::optional<DecisionReason> done_goal() {
     const Candidate& goal = *decision_.chosen();
-    if (std::exchange(must_decide_, false)) return true;
+    if (std::exchange(must_decide_, false)) return DecisionReason::way_in_doubt;
     // Arrived, what is still to be seen may be what lay behind; only if the map there has not changed, the goal tells nothing.
     const bool is_in_vain = has_arrived() && chosen_.contains(goal.frontier_m, occupancy_.grid()) && is_informative(goal);
     if (is_in_vain || is_overdue()) {
       failed_ = goal.frontier_m;
-      return true;
+      return is_in_vain ? DecisionReason::in_vain : DecisionReason::overdue;
     }
-    if (has_arrived() || path_was_closed()) return true;
-    if (params_.strategy == Strategy::persistent || time_s_ < asked_s_ + params_.decision_interval_s) return false;
+    if (has_arrived()) return DecisionReason::arrived;
+    if (path_was_closed()) return DecisionReason::path_closed;
+    if (params_.strategy == Strategy::persistent || time_s_ < asked_s_ + params_.decision_interval_s) return std::nullopt;
     // No switch without anything learned: planning anew could only swing. What is not worth going to is not worth a switch either.
     const bool is_online = params_.strategy == Strategy::online;
     const double learned_min = is_online ? std::max(1.0, params_.gain_min_cells) : 1.0;
-    if (static_cast<double>(learned_.count() - learned_then_) < learned_min) return false;
+    if (static_cast<double>(learned_.count() - learned_then_) < learned_min) return std::nullopt;
     note_what_is_known();
-    return is_online || !is_informative(goal);
+    if (is_online) return DecisionReason::learned;
+    return is_informative(goal) ? std::nullopt : std::optional(DecisionReason::seen_enough);
   }
 
   void note_what_is_known() {
@@ -435,7 +441,7 @@ class Explorer {
     return !path_is_clear(follower_.path(), map().lattice(), radius_m, is_occupied, follower_.progress_m());
   }
 
-  bool choose() {
+  bool choose(DecisionReason reason) {
     reserve_reach();
     note_what_is_known();
     const OccupancyGrid<2>& occupancy = occupancy_.grid();
@@ -467,7 +473,7 @@ class Explorer {
     if (!is_same_goal) set_out();
     chosen_ = SetAsidePlaces(params_.set_aside);
     chosen_.add(candidates.front().frontier_m, occupancy);
-    drive_to(std::move(candidates));
+    drive_to(std::move(candidates), reason);
     return true;
   }
 
