@@ -77,9 +77,9 @@ class LandmarkSlam {
 
   /// The landmarks in the order in which they were first seen.
   [[nodiscard]] const std::vector<int>& landmarks() const { return landmarks_; }
-  /// Of a landmark in the map's frame; the index is not checked.
+  /// Of a landmark in the map's frame. Throws std::out_of_range where there is no such landmark.
   [[nodiscard]] Vector landmark_m(std::size_t index) const { return mean_.template segment<Dim>(start_of(index)); }
-  /// Of a landmark; the index is not checked.
+  /// Of a landmark. Throws std::out_of_range where there is no such landmark.
   [[nodiscard]] Covariance landmark_covariance_m2(std::size_t index) const {
     return covariance_.template block<Dim, Dim>(start_of(index), start_of(index));
   }
