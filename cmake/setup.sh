@@ -1,4 +1,4 @@
-# What examples/run, tests/run and benchmarks/run share: Debian packages, and steps whose output goes to build/setup.log.
+# What examples/run, tests/run, benchmarks/run and docs/run share: Debian packages, and steps whose output goes to build/setup.log.
 # The caller sets `root`, the project's folder, before it sources this file.
 # shellcheck shell=bash disable=SC2034
 : "${root:?}"
@@ -6,7 +6,8 @@
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libpugixml-dev libyaml-cpp-dev libpng-dev
   nlohmann-json3-dev zlib1g-dev)
 example_packages=(libcli11-dev libcairo2-dev fonts-dejavu-core gnuplot-nox)
-test_packages=(catch2 libbenchmark-dev)
+docs_packages=(doxygen libjs-mathjax)
+test_packages=(catch2 libbenchmark-dev python3 "${docs_packages[@]}")
 benchmark_packages=(libbenchmark-dev libcli11-dev gnuplot-nox python3)
 peer_packages=(liboctomap-dev libmrpt-maps-dev)
 all_test_packages=(clang libomp-dev llvm libclang-rt-14-dev)

@@ -9,7 +9,7 @@
 
 namespace incognita {
 
-/// Throws std::invalid_argument "<where>: <field> is <value>, but must be <bound>".
+/// Throws std::invalid_argument "<where>: <field> is <value>, but must be <bound>". The value is in the unit that the field's name says.
 [[noreturn]] inline void throw_invalid(std::string_view where, std::string_view field, double value,
                                        std::string_view bound) {
   std::ostringstream message;
@@ -17,18 +17,19 @@ namespace incognita {
   throw std::invalid_argument(message.str());
 }
 
-/// Throws as throw_invalid does unless `holds`. NaN fails every comparison, so write the condition that must hold.
+/// Throws as throw_invalid does unless `holds`; the value may be of any unit. NaN fails every comparison, so write the condition that
+/// must hold.
 inline void require(bool holds, std::string_view where, std::string_view field, double value,
                     std::string_view bound) {
   if (!holds) throw_invalid(where, field, value, bound);
 }
 
-/// Requires a finite value > 0.
+/// Throws as throw_invalid does unless a value, of any unit, is finite and > 0.
 inline void require_positive(std::string_view where, std::string_view field, double value) {
   require(std::isfinite(value) && value > 0.0, where, field, value, "finite and > 0");
 }
 
-/// Requires a finite value >= 0.
+/// Throws as throw_invalid does unless a value, of any unit, is finite and >= 0.
 inline void require_non_negative(std::string_view where, std::string_view field, double value) {
   require(std::isfinite(value) && value >= 0.0, where, field, value, "finite and >= 0");
 }

@@ -6,7 +6,7 @@
 
 namespace incognita {
 
-/// ln(x) to a relative error of 1e-10, without a branch or a call, so that loops over it become vector code. x must be
+/// ln(x) of a number without a unit to a relative error of 1e-10, without a branch or a call, so that loops over it become vector code. x must be
 /// positive, finite and not subnormal.
 [[nodiscard]] inline double fast_log(double x) {
   // x = 2^exponent * mantissa with the mantissa within a factor of sqrt(2) of 1.

@@ -3,7 +3,7 @@
 
 namespace incognita {
 
-/// The largest integer that is not larger. The value must lie within the range of int.
+/// The largest integer that is not larger than a number without a unit. The value must lie within the range of int.
 [[nodiscard]] inline int floor_to_int(double value) {
   const int truncated = static_cast<int>(value);
   return truncated - static_cast<int>(value < static_cast<double>(truncated));

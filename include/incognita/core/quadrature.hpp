@@ -57,7 +57,8 @@ template <class Integrand>
 
 /// The integral of `integrand` over [low, high], halving the interval until the estimated error is below
 /// `relative_tolerance` of the first estimate, `absolute_tolerance`, or rounding, at most 24 times. A feature that none of the 15 points of
-/// an interval meets goes unseen: split the interval where one is known.
+/// an interval meets goes unseen: split the interval where one is known. The interval may be of any unit; the integral, and with it
+/// absolute_tolerance, is in its unit times the integrand's, and relative_tolerance is a ratio.
 template <class Integrand>
 [[nodiscard]] double integrate(Integrand&& integrand, double low, double high, double relative_tolerance,
                                double absolute_tolerance = 0.0) {

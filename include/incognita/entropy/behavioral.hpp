@@ -26,9 +26,9 @@ class Behavioral {
   /// Throws std::invalid_argument unless alpha is finite and > 0.
   explicit Behavioral(double alpha) : alpha_(alpha) { require_positive("Behavioral", "alpha", alpha); }
 
-  [[nodiscard]] double alpha() const { return alpha_; }
+  [[nodiscard]] double alpha() const { return alpha_; }  ///< the order, without a unit; 1 is Shannon
 
-  /// Of a cell: p in [0, 1], else NaN. Within 1e-12 relative, for large alpha too.
+  /// Of a cell, in nats, for p in [0, 1], else NaN. Within 1e-12 relative, for large alpha too.
   [[nodiscard]] double operator()(double p) const {
     if (alpha_ == 1.0) return Shannon{}(p);
     return detail::entropy_of_binary_cell(p, [this](double, double minor_surprise, double major_surprise) {
@@ -54,7 +54,7 @@ class Behavioral {
     return entropy;
   }
 
-  friend bool operator==(const Behavioral&, const Behavioral&) = default;
+  friend bool operator==(const Behavioral&, const Behavioral&) = default;  ///< when they have one alpha
 
  private:
   /// -w ln w of an outcome with the surprise -ln p. beta (-ln p)^alpha is written ln L (-ln p / ln L)^alpha,

@@ -33,7 +33,7 @@ struct EntropyTableParams {
 /// floats. A plain value; const calls are safe from several threads.
 class EntropyTable {
  public:
-  using Params = EntropyTableParams;
+  using Params = EntropyTableParams;  ///< so that a table's parameters go by one name
 
   /// Calls the measure 2 * intervals + 1 times, and for the sums up to 45,000 times more (0.1 to 3 ms). Throws
   /// std::invalid_argument when log_odds_max is not finite and positive, intervals is not in 1..1000000, or the
@@ -98,7 +98,7 @@ class EntropyTable {
   /// The entropy at the table's ends and beyond.
   [[nodiscard]] double end_nats() const { return values_nats_.back(); }
 
-  [[nodiscard]] double log_odds_max() const { return log_odds_max_; }
+  [[nodiscard]] double log_odds_max() const { return log_odds_max_; }  ///< the end of the table
 
  private:
   std::vector<double> values_nats_;

@@ -20,9 +20,9 @@ class Renyi {
   /// Throws std::invalid_argument unless alpha is finite and > 0.
   explicit Renyi(double alpha) : alpha_(alpha) { require_positive("Renyi", "alpha", alpha); }
 
-  [[nodiscard]] double alpha() const { return alpha_; }
+  [[nodiscard]] double alpha() const { return alpha_; }  ///< the order, without a unit; 1 is Shannon
 
-  /// p in [0, 1], else NaN. Within 1e-12 relative, for alpha next to 1 and for large alpha too.
+  /// In nats, for p in [0, 1], else NaN. Within 1e-12 relative, for alpha next to 1 and for large alpha too.
   [[nodiscard]] double operator()(double p) const {
     if (alpha_ == 1.0) return Shannon{}(p);
     return detail::entropy_of_binary_cell(p, [this](double minor, double minor_surprise,
@@ -39,7 +39,7 @@ class Renyi {
     });
   }
 
-  friend bool operator==(const Renyi&, const Renyi&) = default;
+  friend bool operator==(const Renyi&, const Renyi&) = default;  ///< when they have one alpha
 
  private:
   double alpha_ = 1.0;

@@ -76,11 +76,13 @@ template <class Matrix>
 /// CellSum over a Map<Dispersion>. A cell that was never seen has none.
 class SignedRelativeEntropy {
  public:
-  /// cell_size is C_k of (19), the space that a cell takes. Throws std::invalid_argument unless it is finite and > 0.
+  /// cell_size is C_k of (19), the space that a cell takes, in m^2 in a plane. Throws std::invalid_argument unless it is finite and > 0.
   explicit SignedRelativeEntropy(double cell_size) : cell_size_(cell_size) {
     require_positive("SignedRelativeEntropy", "cell_size", cell_size);
   }
 
+  /// In nats times that unit; 0 for cells that were never seen. Asks beta(), dispersion_log_odds(state) and state.is_explored, as a
+  /// DispersionPolicy has them.
   template <class Cell>
   [[nodiscard]] double operator()(const Cell& policy, const typename Cell::State& state) const {
     if (!state.is_explored) return 0.0;

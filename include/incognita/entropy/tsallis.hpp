@@ -17,9 +17,9 @@ class Tsallis {
   /// Throws std::invalid_argument unless q is finite and > 0.
   explicit Tsallis(double q) : q_(q) { require_positive("Tsallis", "q", q); }
 
-  [[nodiscard]] double q() const { return q_; }
+  [[nodiscard]] double q() const { return q_; }  ///< the order, without a unit; 1 is Shannon
 
-  /// p in [0, 1], else NaN. Within 1e-12 relative, for q next to 1 and for large q too.
+  /// In nats, for p in [0, 1], else NaN. Within 1e-12 relative, for q next to 1 and for large q too.
   [[nodiscard]] double operator()(double p) const {
     if (q_ == 1.0) return Shannon{}(p);
     return detail::entropy_of_binary_cell(
@@ -29,7 +29,7 @@ class Tsallis {
         });
   }
 
-  friend bool operator==(const Tsallis&, const Tsallis&) = default;
+  friend bool operator==(const Tsallis&, const Tsallis&) = default;  ///< when they have one q
 
  private:
   double q_ = 1.0;

@@ -32,9 +32,9 @@ struct WallDirection {
 
 /// Parameters of wall_direction and Compass.
 struct CompassParams {
-  LineSegmentParams segments;
+  LineSegmentParams segments;       ///< which walls are looked at
   double wall_sigma_rad = 0.01;     ///< how far walls are off the right angle, before the building has shown it ...
-  double wall_sigma_walls = 50;     ///< ... by more walls than so many, >= 1
+  double wall_sigma_walls = 50;     ///< ... by more walls than so many, a weight in walls, >= 1
   double inlier_max_rad = 0.05;     ///< a wall this near to the dominant direction belongs to it
   double length_min_m = 3.0;        ///< of all straight pieces together: less says nothing
   double share_min = 0.6;           ///< below, a scan, or the building, has no dominant direction
@@ -109,11 +109,11 @@ class Compass {
  public:
   /// A heading and its variance.
   struct Heading {
-    double yaw_rad;
-    double variance_rad2;
+    double yaw_rad;        ///< of the robot in the map's frame, in (-pi, pi]
+    double variance_rad2;  ///< of the ranges' noise and of walls off the right angle
   };
 
-  Compass() = default;
+  Compass() = default;  ///< with the default parameters
 
   /// Throws std::invalid_argument for parameters outside of their bounds.
   explicit Compass(const CompassParams& params) : params_(params) { params_.validate(); }

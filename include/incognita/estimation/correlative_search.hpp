@@ -34,7 +34,7 @@ struct CorrelativeSearchParams {
   int candidates_max = 12;        ///< >= 1
   double separation_m = 0.3;      ///< two candidates are this far apart ...
   double separation_rad = 0.1;    ///< ... or turned this far: about as far as registration reaches
-  double objective_margin = 0.2;  ///< candidates this much below the best are left out
+  double objective_margin = 0.2;  ///< candidates whose objective is this much below the best are left out; no unit
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -51,9 +51,9 @@ struct CorrelativeSearchParams {
 
 /// A pose that a search found.
 struct SearchCandidate {
-  Pose2 pose;
-  double score = 0.0;      ///< the mean likelihood of the hits' end points, in (0, 1]
-  double objective = 0.0;  ///< the score less the prior's cost: what candidates are ranked by
+  Pose2 pose;              ///< T_map_robot
+  double score = 0.0;      ///< the mean likelihood of the hits' end points, in (0, 1]; no unit
+  double objective = 0.0;  ///< the score less the prior's cost: what candidates are ranked by; no unit
 };
 
 /// An exact search by branch and bound. Over the poses of a SearchLattice the objective is the mean, over the
@@ -75,12 +75,12 @@ class CorrelativeSearch {
   static_assert(Dim == 2, "searches are planar");
 
  public:
-  using Params = CorrelativeSearchParams;
+  using Params = CorrelativeSearchParams;  ///< so that the search's parameters go by one name
 
   /// Throws std::invalid_argument for bad parameters.
   explicit CorrelativeSearch(const Params& params = {}) : params_(params) { params.validate(); }
 
-  [[nodiscard]] const Params& params() const { return params_; }
+  [[nodiscard]] const Params& params() const { return params_; }  ///< as given
 
   /// The best candidates around a centre, best first, without a prior. None when the scan has no hits or none
   /// of them fits anything. Valid until the next search. Throws std::invalid_argument when the centre is not

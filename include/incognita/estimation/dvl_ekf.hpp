@@ -26,11 +26,12 @@ namespace incognita {
 
 /// Loops that are not closed.
 struct NoLoops {
+  /// None.
   struct Params {
-    void validate() const {}
+    void validate() const {}  ///< never throws
   };
-  NoLoops() = default;
-  explicit NoLoops(const Params& /*params*/) {}
+  NoLoops() = default;                           ///< closes nothing
+  explicit NoLoops(const Params& /*params*/) {}  ///< likewise
 };
 
 /// Prediction by (7); correction by the tempered likelihoods of (9) with R_x of (10). Form::registration (the default)
@@ -46,44 +47,51 @@ class BasicDvlEkf {
   static constexpr bool closes_loops = !std::is_same_v<Loops, NoLoops>;
 
  public:
-  enum class Form { registration, ray };
+  /// How a scan corrects.
+  enum class Form {
+    registration,  ///< to sub-cell surfaces
+    ray            ///< Lemma 4.1 to the letter
+  };
 
+  /// All that the filter can be told; the defaults are for a planar LiDAR at 10 Hz.
   struct Params {
-    PoseBelief start{{}, diagonal_covariance(1e-6, 1e-6, 1e-6)};
+    PoseBelief start{{}, diagonal_covariance(1e-6, 1e-6, 1e-6)};  ///< in the map's frame
     /// Q of (7): 0.01 m and 0.01 rad a scan at 10 Hz. A few times the noise of usual odometry: errors of a map are
     /// correlated over scans, and a filter matched to the odometry grows sure of them.
     MotionNoise noise{0.0316, 0.0316};
     /// The start pose defines the map's frame, so it is known: it is held for this many scans, or until odometry says
     /// that the robot has left it, while the first surfaces are measured from a pose without error.
     int start_scans_held = 20;
+    /// Driven from the start, by odometry: further, and the start is over; >= 0.
     double start_hold_distance_m = 0.1;
-    double start_hold_turn_rad = 0.05;
-    Form form = Form::registration;
+    double start_hold_turn_rad = 0.05;  ///< turned, likewise; >= 0
+    Form form = Form::registration;     ///< of corrections
     /// false: the decoupled baseline A2, A4 of section VI-B. A hit counts with R_o alone where the cell is occupied
     /// with more than decoupled_probability_min, and not at all elsewhere.
     bool coupled = true;
-    double decoupled_probability_min = 0.65;
-    RegistrationParams registration;
-    typename SurfaceMap<Dim>::Params surfaces;
-    MapDrift::Params drift;
-    typename Loops::Params loops;
+    double decoupled_probability_min = 0.65;    ///< in [0, 1)
+    RegistrationParams registration;            ///< for Form::registration
+    typename SurfaceMap<Dim>::Params surfaces;  ///< that scans are registered to
+    MapDrift::Params drift;                     ///< of the map
+    typename Loops::Params loops;               ///< of what closes loops
     /// Whether headings are also measured by the building's dominant directions, where it has them.
     bool uses_compass = true;
-    CompassParams compass;
+    CompassParams compass;  ///< of the headings from walls
     /// Where odometry may be far off, search for the best place in search_window before each registration; else only when
     /// registration's result contradicts the map, or fits it worse than usual.
     bool searches_each_scan = false;
-    SearchWindow search_window{0.3, 0.3, 0.21};
-    CorrelativeSearchParams search;
+    SearchWindow search_window{0.3, 0.3, 0.21};  ///< how far off odometry may be, each way
+    CorrelativeSearchParams search;              ///< for that place
     /// What tells a wrong pose from a new place.
     ConsistencyParams consistency;
-    RelocationParams relocation;
-    int lost_scans = 10;  ///< lost after so many scans in a row that contradict the map, >= 1
-    RayUpdateParams ray;  ///< for Form::ray
+    RelocationParams relocation;  ///< of a robot that was carried off
+    int lost_scans = 10;          ///< lost after so many scans in a row that contradict the map, >= 1
+    RayUpdateParams ray;          ///< for Form::ray
     /// For imagined scans: divided by the number of beams, so that little is learned where little is seen.
     RayUpdateParams imagined{{}, 1.2, Tempering::beams, MixtureVariance::squared_weights};
   };
 
+  /// With the default parameters.
   BasicDvlEkf() : BasicDvlEkf(Params{}) {}
 
   /// Throws std::invalid_argument for parameters outside of their bounds; the noise must be > 0.
@@ -115,15 +123,15 @@ class BasicDvlEkf {
     if (!params.coupled) decouple(params_);
   }
 
-  [[nodiscard]] const Params& params() const { return params_; }
-  [[nodiscard]] const PoseBelief& belief() const { return belief_; }
-  [[nodiscard]] const SurfaceMap<Dim>& surfaces() const { return surfaces_; }
+  [[nodiscard]] const Params& params() const { return params_; }  ///< as given, decoupled where that was asked for
+  [[nodiscard]] const PoseBelief& belief() const { return belief_; }  ///< in the map's frame
+  [[nodiscard]] const SurfaceMap<Dim>& surfaces() const { return surfaces_; }  ///< learned so far, in the map's frame
 
   /// The part of belief() that is the drift of the map around; the rest is the uncertainty in that map.
   [[nodiscard]] const MapDrift& drift() const { return drift_; }
 
-  [[nodiscard]] const Loops& loops() const { return loops_; }
-  [[nodiscard]] Loops& loops() { return loops_; }
+  [[nodiscard]] const Loops& loops() const { return loops_; }  ///< what closes loops
+  [[nodiscard]] Loops& loops() { return loops_; }  ///< for who draws the map again, see Slam
 
   /// False while the start pose is held.
   [[nodiscard]] bool is_ready() const { return scans_held_ >= params_.start_scans_held; }
@@ -198,6 +206,7 @@ class BasicDvlEkf {
     heading_ = {yaw_rad, variance_rad2};
   }
 
+  /// The belief after a motion that was not driven: (7). Checks nothing.
   [[nodiscard]] PoseBelief imagine_motion(const PoseBelief& belief, const Pose2& increment, double duration_s) const {
     return propagate(belief, increment, params_.noise, duration_s);
   }
@@ -397,6 +406,7 @@ class BasicDvlEkf {
   int scans_held_ = 0;
 };
 
+/// The filter without loops.
 using DvlEkf = BasicDvlEkf<2>;
 
 }  // namespace incognita

@@ -14,8 +14,8 @@ namespace incognita {
 
 /// What a correction by a scan rested on.
 struct CorrectionReport {
-  std::size_t associations = 0;  ///< N_h: beams that had something to be compared with
-  double residual_rms_m = 0.0;
+  std::size_t associations = 0;   ///< N_h: beams that had something to be compared with
+  double residual_rms_m = 0.0;    ///< of what was compared; 0 without associations
   double consistent_share = 1.0;  ///< of the beams that the map can judge, see ScanConsistency
   /// False when the scan cannot have been taken where the robot believes to be: neither the map nor the estimator may learn
   /// from it.

@@ -12,8 +12,8 @@ namespace incognita {
 
 /// The sum of H^T R^-1 H and H^T R^-1 r over measurements.
 struct Information {
-  Eigen::Matrix3d matrix = zero<Eigen::Matrix3d>();
-  Eigen::Vector3d vector{0.0, 0.0, 0.0};
+  Eigen::Matrix3d matrix = zero<Eigen::Matrix3d>();  ///< H^T R^-1 H, over (x, y, yaw)
+  Eigen::Vector3d vector{0.0, 0.0, 0.0};             ///< H^T R^-1 r, likewise
 
   /// Adds a scalar measurement with Jacobian `jacobian`, residual measured minus expected, and weight 1 / variance.
   void add(const Eigen::Vector3d& jacobian, double residual, double weight) {

@@ -28,11 +28,12 @@ struct Sighting {
 template <int Dim>
 class LandmarkSlam {
  public:
-  using Vector = Eigen::Matrix<double, Dim, 1>;
-  using Covariance = Eigen::Matrix<double, Dim, Dim>;
-  using JointVector = Eigen::Matrix<typename Vector::Scalar, Eigen::Dynamic, 1>;
-  using JointCovariance = Eigen::Matrix<typename Vector::Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<double, Dim, 1>;                                                    ///< a position or a way, in metres
+  using Covariance = Eigen::Matrix<double, Dim, Dim>;                                              ///< in m^2, in the axes of the map
+  using JointVector = Eigen::Matrix<typename Vector::Scalar, Eigen::Dynamic, 1>;                   ///< robot and landmarks, Dim entries each
+  using JointCovariance = Eigen::Matrix<typename Vector::Scalar, Eigen::Dynamic, Eigen::Dynamic>;  ///< likewise, in m^2
 
+  /// Variances along each axis, of independent errors.
   struct Params {
     double process_m2 = 0.01;      ///< Q = process_m2 I, a step, >= 0
     double measurement_m2 = 0.01;  ///< R = measurement_m2 I, > 0
@@ -71,12 +72,14 @@ class LandmarkSlam {
     }
   }
 
-  [[nodiscard]] Vector position_m() const { return mean_.template head<Dim>(); }
-  [[nodiscard]] Covariance position_covariance_m2() const { return covariance_.template topLeftCorner<Dim, Dim>(); }
+  [[nodiscard]] Vector position_m() const { return mean_.template head<Dim>(); }  ///< of the robot, in the map's frame
+  [[nodiscard]] Covariance position_covariance_m2() const { return covariance_.template topLeftCorner<Dim, Dim>(); }  ///< of the robot
 
   /// The landmarks in the order in which they were first seen.
   [[nodiscard]] const std::vector<int>& landmarks() const { return landmarks_; }
+  /// Of a landmark in the map's frame. Throws std::out_of_range where there is no such landmark.
   [[nodiscard]] Vector landmark_m(std::size_t index) const { return mean_.template segment<Dim>(start_of(index)); }
+  /// Of a landmark. Throws std::out_of_range where there is no such landmark.
   [[nodiscard]] Covariance landmark_covariance_m2(std::size_t index) const {
     return covariance_.template block<Dim, Dim>(start_of(index), start_of(index));
   }

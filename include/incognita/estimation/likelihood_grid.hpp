@@ -27,8 +27,8 @@ class LikelihoodGrid {
   static_assert(Dim == 2, "searches are planar");
 
  public:
-  static constexpr int layer_count = 8;
-  static constexpr int value_max = 255;
+  static constexpr int layer_count = 8;  ///< of viewing directions
+  static constexpr int value_max = 255;  ///< what likelihood 1 is stored as
 
   /// The layer of a beam's direction: the nearest multiple of pi / 4. The angle must lie within +-100 rad.
   [[nodiscard]] static int layer_of(double direction_rad) {
@@ -55,12 +55,13 @@ class LikelihoodGrid {
                          [&](const Surface<Dim>& surface) { draw(surface, half_length_m, lattice); });
   }
 
-  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] int columns() const { return columns_; }  ///< of each row
   /// Rows of one layer.
   [[nodiscard]] int rows() const { return rows_; }
   /// layer_count * rows() rows of columns() values.
   [[nodiscard]] const std::vector<std::uint8_t>& values() const { return values_; }
 
+  /// The likelihood in a cell, in 1 / value_max; nothing is checked.
   [[nodiscard]] int value(int layer, int column, int row) const {
     return values_[static_cast<std::size_t>((layer * rows_ + row) * columns_ + column)];
   }

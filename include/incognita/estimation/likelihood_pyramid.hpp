@@ -21,8 +21,8 @@ class LikelihoodPyramid {
   static_assert(Dim == 2, "searches are planar");
 
  public:
-  static constexpr int level_min = 3;
-  static constexpr int level_max = 7;
+  static constexpr int level_min = 3;  ///< squares of 8 cells
+  static constexpr int level_max = 7;  ///< squares of 128 cells
 
   /// Rows of a layer should be a multiple of this: then no entry starts in one layer and serves another.
   [[nodiscard]] static int row_multiple(int top) { return 1 << (top - 2); }
@@ -61,7 +61,7 @@ class LikelihoodPyramid {
   [[nodiscard]] const std::uint8_t* entries(int level) const {
     return levels_[at(level - level_min)].values.data();
   }
-  [[nodiscard]] int columns(int level) const { return levels_[at(level - level_min)].columns; }
+  [[nodiscard]] int columns(int level) const { return levels_[at(level - level_min)].columns; }  ///< see entries()
 
  private:
   struct Level {

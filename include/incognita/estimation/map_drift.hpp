@@ -44,6 +44,7 @@ namespace incognita {
 /// them where they are stored and says so by settle(). Not thread safe.
 class MapDrift {
  public:
+  /// How a map is cut into pieces, and what a new one takes over.
   struct Params {
     /// How much of the pose's covariance a new piece takes over. Not all: its surfaces are means over many scans, whose
     /// errors are independent after a few of them. 0 switches the model off: the map is taken for the truth.
@@ -62,7 +63,7 @@ class MapDrift {
     }
   };
 
-  MapDrift() = default;
+  MapDrift() = default;  ///< with the default parameters
 
   /// Throws std::invalid_argument for parameters outside of their bounds.
   explicit MapDrift(const Params& params) : params_(params) { params_.validate(); }
@@ -72,12 +73,12 @@ class MapDrift {
 
   /// What poses are registered to.
   struct Reference {
-    Eigen::Matrix3d drift = zero<Eigen::Matrix3d>();
-    double turn_at_birth_rad2 = 0.0;
-    int piece = 0;
+    Eigen::Matrix3d drift = zero<Eigen::Matrix3d>();  ///< a covariance of twists
+    double turn_at_birth_rad2 = 0.0;                  ///< the variance of its piece's turn when that was born
+    int piece = 0;                                    ///< its number
   };
 
-  [[nodiscard]] const Reference& reference() const { return reference_; }
+  [[nodiscard]] const Reference& reference() const { return reference_; }  ///< as last chosen
 
   /// Takes an earlier reference() back.
   void restore(const Reference& reference) { reference_ = reference; }
@@ -103,7 +104,7 @@ class MapDrift {
   /// The next scan begins a new piece.
   void begin_piece() { begins_piece_ = true; }
 
-  [[nodiscard]] int scans_per_piece() const { return params_.scans_per_piece; }
+  [[nodiscard]] int scans_per_piece() const { return params_.scans_per_piece; }  ///< the most that a piece is born of
 
   /// The number of pieces.
   [[nodiscard]] std::size_t size() const { return pieces_.size(); }
@@ -114,6 +115,7 @@ class MapDrift {
     matched_.clear();
   }
 
+  /// A beam is matched with a surface of this piece, which is not checked.
   void add_match(int piece) {
     matched_.push_back({position_variance_m2(pieces_[static_cast<std::size_t>(piece)].drift), piece});
   }

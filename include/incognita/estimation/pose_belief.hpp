@@ -15,8 +15,8 @@ namespace incognita {
 
 /// N(pose, covariance) over (x, y, yaw); see Pose2::Covariance for units and axes.
 struct PoseBelief {
-  Pose2 pose;
-  Eigen::Matrix3d covariance = zero<Eigen::Matrix3d>();
+  Pose2 pose;                                            ///< the mean
+  Eigen::Matrix3d covariance = zero<Eigen::Matrix3d>();  ///< symmetric and positive semi-definite
 };
 
 /// The covariance of independent errors.
@@ -46,8 +46,8 @@ inline void require_belief(const char* where, const PoseBelief& belief) {
 
 /// White process noise: its variance grows with time, whatever the steps time is cut into.
 struct MotionNoise {
-  double position_m_per_sqrt_s = 0.0;
-  double yaw_rad_per_sqrt_s = 0.0;
+  double position_m_per_sqrt_s = 0.0;  ///< of x and of y
+  double yaw_rad_per_sqrt_s = 0.0;     ///< of the heading
 
   /// Throws std::invalid_argument unless both are finite and >= 0.
   void validate() const {

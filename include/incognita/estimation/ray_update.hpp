@@ -29,10 +29,10 @@ enum class Tempering {
 
 /// Parameters of the ray form.
 struct RayUpdateParams {
-  DvlVariances dvl;
-  double gamma = 1.2;  ///< > 0
-  Tempering tempering = Tempering::hits;
-  MixtureVariance mixture = MixtureVariance::squared_weights;
+  DvlVariances dvl;                                            ///< R_o and R_u
+  double gamma = 1.2;                                          ///< > 0
+  Tempering tempering = Tempering::hits;                       ///< what gamma is divided by
+  MixtureVariance mixture = MixtureVariance::squared_weights;  ///< how R_x is mixed
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {

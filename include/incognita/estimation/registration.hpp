@@ -20,8 +20,8 @@ namespace incognita {
 
 /// Parameters of register_scan.
 struct RegistrationParams {
-  DvlVariances dvl{0.01, 9.0};
-  MixtureVariance mixture = MixtureVariance::squared_weights;
+  DvlVariances dvl{0.01, 9.0};                                 ///< R_o and R_u
+  MixtureVariance mixture = MixtureVariance::squared_weights;  ///< how R_x is mixed
   /// The weight of a whole scan, in beams of variance R_x; > 0. With R_o = (0.1 m)^2, 480 of them weigh as much as five
   /// ranges with a noise of 0.01 m: the errors of a scan's beams against a map are far from independent.
   double gamma = 480.0;
@@ -51,7 +51,7 @@ struct RegistrationParams {
 
 /// What register_scan found.
 struct Registration {
-  PoseBelief belief;
+  PoseBelief belief;                   ///< after the scan, in the map's frame
   std::size_t hits = 0;                ///< beams that ended on something
   std::size_t associations = 0;        ///< N_h: those with a surface, in the last iteration
   double residual_rms_m = 0.0;         ///< of those beams, in the last iteration
@@ -60,9 +60,9 @@ struct Registration {
 /// Where the residual of one beam points. The residual of a line is signed along its normal; a point has one along each
 /// axis.
 struct SurfaceMatch {
-  const Surface<2>* surface = nullptr;
-  bool is_line = false;
-  Eigen::Vector2d offset_m{0.0, 0.0};  ///< from the surface's mean to the end point
+  const Surface<2>* surface = nullptr;  ///< the one that the beam is matched with
+  bool is_line = false;                 ///< planar; else its mean is a point
+  Eigen::Vector2d offset_m{0.0, 0.0};   ///< from the surface's mean to the end point
 
   /// Signed for lines.
   [[nodiscard]] double residual_m() const { return is_line ? dot(surface->normal, offset_m) : norm(offset_m); }
@@ -151,7 +151,7 @@ inline void add_match(Information& information, const SurfaceMatch& match, const
 }
 
 /// The Gauss-Newton step counted from the prior, which needs no inverse of the prior's covariance. A template, so that its
-/// Eigen expression costs only those who register.
+/// Eigen expression costs only those who register. `tempered` is the weight of the information.
 template <class Matrix, class Vector>
 [[nodiscard]] Vector gauss_newton_step(const Matrix& posterior, const Matrix& information, const Vector& gradient,
                                        const Vector& from_prior, double tempered) {

@@ -23,7 +23,7 @@ struct RelocationParams {
   /// rooms the share alone has moved a robot that was right into a room that was not.
   double residual_ratio_max = 1.5;
   double separation_m = 0.3;     ///< places further apart than this are different ones, >= 0
-  double memory_scans = 50;      ///< over how many scans it is learned what is usual, >= 1
+  double memory_scans = 50;      ///< over how many scans it is learned what is usual, without a unit, >= 1
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -37,15 +37,16 @@ struct RelocationParams {
 
 /// How well a scan fits a map at a place: what registration made of it there, and what the belief says to that.
 struct ScanFit {
-  Registration registration;
-  ScanConsistency consistency;
+  Registration registration;    ///< there
+  ScanConsistency consistency;  ///< with the belief
 };
 
 /// How long something has held without a break.
 struct Streak {
-  int scans = 0;
+  int scans = 0;            ///< in a row of which it held
   double duration_s = 0.0;  ///< since the last scan of which it did not hold: one period of the scanner at least
 
+  /// Counts a scan, or starts over. The time is added by who knows it.
   void note(bool holds) {
     scans = holds ? scans + 1 : 0;
     if (!holds) duration_s = 0.0;

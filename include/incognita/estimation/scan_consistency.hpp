@@ -16,7 +16,7 @@ struct ConsistencyParams {
   std::size_t beams_max = 60;    ///< so many, evenly chosen, are looked at; >= 1
   double tolerance_m = 0.15;     ///< a surface this near to where a beam ends explains it
   float occupied_above = 2.0F;   ///< log-odds of a cell that is certainly a surface ...
-  float free_below = -2.0F;      ///< ... and of one that is certainly not
+  float free_below = -2.0F;      ///< ... and log-odds of one that is certainly not
   std::size_t beams_min = 12;    ///< fewer that the map can judge say nothing
   double share_min = 0.6;        ///< of the judged beams that must agree with the map, in [0, 1]
 

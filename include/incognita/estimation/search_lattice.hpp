@@ -21,9 +21,9 @@ namespace incognita {
 /// How far from its centre a search looks, each way, in the axes of the map's frame. A yaw of pi or more is
 /// all around.
 struct SearchWindow {
-  double x_m = 0.3;
-  double y_m = 0.3;
-  double yaw_rad = 0.21;
+  double x_m = 0.3;       ///< >= 0
+  double y_m = 0.3;       ///< >= 0
+  double yaw_rad = 0.21;  ///< >= 0
 
   /// Throws std::invalid_argument for values that are not finite and >= 0.
   void validate() const {
@@ -37,20 +37,21 @@ struct SearchWindow {
 /// counts from the smallest offsets. All around, the yaw step is shortened to divide the circle, and the last
 /// turn has the first as its neighbour.
 struct SearchLattice {
+  /// A pose of the lattice, by its steps.
   struct At {
-    int x = 0;
-    int y = 0;
-    int turn = 0;
+    int x = 0;     ///< in steps of step_m along the map's x axis
+    int y = 0;     ///< along its y axis
+    int turn = 0;  ///< in steps of yaw_step_rad
   };
-  static constexpr double half_max = 4096.0;  ///< steps of position each way
-  static constexpr double turns_max = 65536.0;
+  static constexpr double half_max = 4096.0;    ///< the most steps of position each way, without a unit
+  static constexpr double turns_max = 65536.0;  ///< the most headings, without a unit
 
-  Pose2 center;
-  double step_m = 0.0;
-  double yaw_step_rad = 0.0;
-  At half;
-  At size;
-  bool is_circle = false;
+  Pose2 center;               ///< T_map_robot, the yaw wrapped
+  double step_m = 0.0;        ///< between positions, along each axis
+  double yaw_step_rad = 0.0;  ///< between headings
+  At half;                    ///< where the centre is
+  At size;                    ///< how many there are along each axis
+  bool is_circle = false;     ///< whether headings go all around
 
   /// Throws std::invalid_argument for windows of more than half_max steps each way or turns_max turns.
   SearchLattice(const Pose2& center_pose, const SearchWindow& window, double position_step_m,
@@ -76,8 +77,10 @@ struct SearchLattice {
     }
   }
 
+  /// Of a turn from the centre's heading.
   [[nodiscard]] double yaw_offset_rad(int turn) const { return (turn - half.turn) * yaw_step_rad; }
 
+  /// T_map_robot of a place of the lattice; the yaw is wrapped.
   [[nodiscard]] Pose2 pose(const At& at) const {
     return {center.x_m + (at.x - half.x) * step_m, center.y_m + (at.y - half.y) * step_m,
             wrap_angle_rad(center.yaw_rad + yaw_offset_rad(at.turn))};
@@ -95,8 +98,9 @@ struct SearchLattice {
 /// one will do.
 class SearchPrior {
  public:
-  SearchPrior() = default;
+  SearchPrior() = default;  ///< to be assigned to before it is asked
 
+  /// The covariance over (x, y, yaw), in the axes of the map's frame.
   SearchPrior(const Eigen::Matrix3d& covariance, const SearchLattice& lattice) {
     // The heading first: then one turn of the lattice fixes the first coordinate.
     const std::array<int, 3> order{2, 0, 1};
@@ -119,7 +123,7 @@ class SearchPrior {
   }
 
   /// At most the squared distance of any offset with this yaw and x and y within their limits; exact for one
-  /// offset.
+  /// offset. Without a unit.
   [[nodiscard]] double distance_min(double yaw_rad, double x_min_m, double x_max_m, double y_min_m,
                                     double y_max_m) const {
     const double turned = yaw_rad / factor_(0, 0);

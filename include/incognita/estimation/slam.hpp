@@ -18,9 +18,9 @@ concept RedrawsMaps = requires(Filter& filter) {
 
 /// What a scan has done.
 struct SlamReport {
-  CorrectionReport correction;
-  ScanReport scan;          ///< of the map; all beams ignored when the correction was not trusted
-  bool is_redrawn = false;  ///< the map was drawn again from all scans, after a loop was closed
+  CorrectionReport correction;  ///< of the filter
+  ScanReport scan;              ///< of the map; all beams ignored when the correction was not trusted
+  bool is_redrawn = false;      ///< the map was drawn again from all scans, after a loop was closed
 };
 
 /// Localisation and mapping, coupled as in Algorithm 1 of Seo et al.: the filter reads the map, then the map takes the scan at
@@ -30,12 +30,13 @@ struct SlamReport {
 template <class MapType, Estimator<MapType> Filter>
 class Slam {
  public:
+  /// Takes a filter, and a map to start from in the filter's frame.
   explicit Slam(Filter filter, MapType map = MapType{})
       : filter_(std::move(filter)), given_(map), map_(std::move(map)) {}
 
-  [[nodiscard]] const Filter& filter() const { return filter_; }
-  [[nodiscard]] const PoseBelief& belief() const { return filter_.belief(); }
-  [[nodiscard]] const MapType& map() const { return map_; }
+  [[nodiscard]] const Filter& filter() const { return filter_; }  ///< that locates the robot
+  [[nodiscard]] const PoseBelief& belief() const { return filter_.belief(); }  ///< T_map_robot and its covariance
+  [[nodiscard]] const MapType& map() const { return map_; }  ///< as the scans that were trusted have it
 
   /// The robot has moved by `increment`, in its own frame, within duration_s. Throws std::invalid_argument unless the
   /// increment is finite and the duration finite and >= 0; nothing has then changed.

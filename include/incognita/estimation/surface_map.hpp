@@ -20,16 +20,17 @@ namespace incognita {
 /// The end points that one side of a surface left in one cell, as a running Gaussian.
 template <int Dim>
 struct Surface {
-  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;  ///< in m^2, in the axes of the map's frame
 
-  int count = 0;
-  int piece = 0;  ///< the piece of the map that it was first seen with, see MapDrift
-  Point<Dim> mean_m = zero<Point<Dim>>();
+  int count = 0;                           ///< end points so far
+  int piece = 0;                           ///< the piece of the map that it was first seen with, see MapDrift
+  Point<Dim> mean_m = zero<Point<Dim>>();  ///< of the end points, in the map's frame
   Matrix scatter_m2 = zero<Matrix>();      ///< the sum of outer products of deviations from the mean
   Point<Dim> view = zero<Point<Dim>>();    ///< the mean direction of the beams that ended here
   Point<Dim> normal = zero<Point<Dim>>();  ///< unit, against the view; valid when planar
-  bool planar = false;
+  bool planar = false;                     ///< whether the end points lie on a line (plane)
 
+  /// An end point, and the unit direction of its beam, in the map's frame. The normal is not renewed.
   void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
     ++count;
     const Point<Dim> deviation = point_m - mean_m;
@@ -51,17 +52,18 @@ struct Surface {
 template <int Dim = 2>
 class SurfaceMap {
  public:
+  /// Which end points make one surface, and which surfaces are walls.
   struct Params {
     double cell_m = 0.1;               ///< no larger than the jambs of doors: along a corridor they alone are seen
     int count_max = 50;                ///< a surface is frozen at this many points
     double pool_radius_m = 0.2;        ///< a normal pools the surfaces of the neighbourhood this near ...
     double pool_offset_m = 0.06;       ///< ... and this near to their common line (plane)
-    int planar_count_min = 4;
-    double flatness = 0.03;            ///< planar: smallest eigenvalue <= flatness * next + roughness_m2
+    int planar_count_min = 4;          ///< planar: end points in the pool, >= 2
+    double flatness = 0.03;            ///< planar: smallest eigenvalue <= this ratio * next + roughness_m2
     double roughness_m2 = 4e-5;        ///< allows for the noise of ranges
     double spread_min_m = 0.02;        ///< planar: sqrt of the next eigenvalue at least this
   };
-  static constexpr int sides_max = 3;
+  static constexpr int sides_max = 3;  ///< a cell, as a wall may be seen from both
 
   /// Throws std::invalid_argument for values that are not finite and positive.
   explicit SurfaceMap(const Params& params = {}) : params_(params), slots_(Lattice<Dim>(params.cell_m), {}, -1) {
@@ -74,7 +76,7 @@ class SurfaceMap {
     require_positive("SurfaceMap", "spread_min_m", params.spread_min_m);
   }
 
-  [[nodiscard]] const Params& params() const { return params_; }
+  [[nodiscard]] const Params& params() const { return params_; }  ///< as given
 
   /// The number of surfaces held.
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -99,6 +101,7 @@ class SurfaceMap {
     changed_.push_back({index, static_cast<int>(surface - cell.sides.data())});
   }
 
+  /// The same of a map that does not drift: all surfaces belong to piece 0.
   void add(const Point<Dim>& point_m, const Point<Dim>& direction) {
     add(point_m, direction, 0, [](int /*piece*/, const Point<Dim>& /*at*/) { return zero<Point<Dim>>(); });
   }

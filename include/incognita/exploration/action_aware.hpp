@@ -22,13 +22,14 @@ namespace incognita {
 
 /// What an exploration is planned by.
 struct ActionAwareParams {
-  BodyParams body;
-  VisibilityParams visibility;
+  BodyParams body;              ///< the robot's disc
+  VisibilityParams visibility;  ///< what counts as seen
+  /// Which cells are frontiers, and how they are grouped.
   FrontierParams frontier{false, Adjacency::faces, Adjacency::corners, 0.0, std::numeric_limits<double>::max()};
-  VisitCostParams visit;
-  Adjacency steps = Adjacency::corners;  ///< how paths go from cell to cell; no corner is cut
-  NavigationCost navigation = NavigationCost::geodesic;
-  double information_min_m2 = 0.0;       ///< mu, >= 0
+  VisitCostParams visit;                                 ///< what paths like
+  Adjacency steps = Adjacency::corners;                  ///< how paths go from cell to cell; no corner is cut
+  NavigationCost navigation = NavigationCost::geodesic;  ///< what information is divided by
+  double information_min_m2 = 0.0;                       ///< mu, >= 0
 
   /// Throws std::invalid_argument for values outside of their bounds, and when the robot could see no frontier from where its
   /// body fits: the frontier's cells lie further than radius_m + margin_m from there.
@@ -47,8 +48,8 @@ struct ActionAwareParams {
 /// A path to the best viewpoint, or why there is none.
 struct ExplorationPlan {
   Polyline path;                        ///< from the start to the viewpoint's centre, cell by cell
-  std::optional<FrontierView> chosen;
-  std::vector<Frontier<2>> frontiers;
+  std::optional<FrontierView> chosen;   ///< by (26); none when ended is set
+  std::vector<Frontier<2>> frontiers;   ///< all of them, informative or not
   std::vector<FrontierView> views;      ///< between which it was chosen
   std::optional<StopReason> ended;      ///< set when there is nothing to choose
 };

@@ -22,23 +22,25 @@ struct Candidate {
   std::vector<Index<2>> frontier;           ///< its cells
   Index<2> viewpoint = zero<Index<2>>();    ///< from where it is seen
   Polyline path;                            ///< from the robot to there
-  double gain_nats = 0.0;        ///< what the path is predicted to tell, BIG with a behavioral entropy; 0 where it was not asked
-  double information = 0.0;      ///< what the frontier is measured by, see FrontierInformation
-  double navigation_cost = 0.0;  ///< of getting there, see NavigationCost
-  double utility = 0.0;          ///< what candidates are ranked by: information per cost
+  double gain_nats = 0.0;                   ///< what the path is predicted to tell, BIG with a behavioral entropy; 0 where it was not asked
+  double information = 0.0;                 ///< what the frontier is measured by, in the unit of the FrontierInformation
+  double navigation_cost = 0.0;             ///< of getting there, in metres, or 1 (NavigationCost::uniform)
+  double utility = 0.0;                     ///< what candidates are ranked by: information per cost, in their units' ratio
 
+  /// Where the path ends, in the map's frame. The path must not be empty.
   [[nodiscard]] const Eigen::Vector2d& goal_m() const { return path.points_m().back(); }
 };
 
 /// Scratch of evaluate_candidates, kept from one call to the next.
 template <CellPolicy Cell>
 struct CandidateScratch {
+  /// What one thread needs.
   struct Worker {
-    GainWorkspace<Cell> workspace;
-    bool has_looked = false;  // at the map of this call
+    GainWorkspace<Cell> workspace;  ///< its own
+    bool has_looked = false;        ///< at the map of this call
   };
-  std::vector<Worker> workers;
-  std::vector<std::size_t> order;
+  std::vector<Worker> workers;     ///< one a thread
+  std::vector<std::size_t> order;  ///< in which candidates are evaluated
 };
 
 /// The information gain of every candidate, into its gain_nats, over `threads` threads (0: OpenMP's own number). Each

@@ -27,6 +27,7 @@ namespace incognita {
 template <CellPolicy Cell>
 class CandidateSearch {
  public:
+  /// On the lattice of the map.
   explicit CandidateSearch(const Lattice<2>& lattice)
       : clearance_m_(lattice, {}, std::numeric_limits<float>::infinity()), ways_(lattice) {}
 
@@ -47,7 +48,7 @@ class CandidateSearch {
     ways_.restart(occupancy, clearance_m_, from_m, params);
   }
 
-  [[nodiscard]] const TravelCostField& ways() const { return ways_; }
+  [[nodiscard]] const TravelCostField& ways() const { return ways_; }  ///< from the place that they were last made from
 
   /// The way to a cell that is reached, with few corners.
   [[nodiscard]] Polyline path_to(const Index<2>& cell) const { return Polyline(shorten_path(ways_, find_path(ways_, cell))); }

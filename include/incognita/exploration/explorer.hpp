@@ -166,7 +166,7 @@ class Explorer {
     drop_goal();
   }
 
-  [[nodiscard]] bool is_paused() const { return is_paused_; }
+  [[nodiscard]] bool is_paused() const { return is_paused_; }  ///< see pause()
   /// Whether it is on its way back to the start; no more when that has ended.
   [[nodiscard]] bool is_returning() const { return is_returning_; }
 
@@ -205,17 +205,17 @@ class Explorer {
 
   /// Why it has ended, when it has.
   [[nodiscard]] const std::optional<StopReason>& stopped() const { return decision_.stopped; }
-  [[nodiscard]] const Decision& decision() const { return decision_; }
-  [[nodiscard]] const MapType& map() const { return slam_.map(); }
-  [[nodiscard]] const Filter& filter() const { return slam_.filter(); }
-  [[nodiscard]] const PoseBelief& belief() const { return slam_.belief(); }
+  [[nodiscard]] const Decision& decision() const { return decision_; }  ///< the last one
+  [[nodiscard]] const MapType& map() const { return slam_.map(); }  ///< in the frame of the start
+  [[nodiscard]] const Filter& filter() const { return slam_.filter(); }  ///< that locates the robot
+  [[nodiscard]] const PoseBelief& belief() const { return slam_.belief(); }  ///< T_map_robot and its covariance
   [[nodiscard]] const SlamReport& last_scan() const { return last_scan_; }  ///< what became of it
-  [[nodiscard]] const CorrectionReport& correction() const { return last_scan_.correction; }
+  [[nodiscard]] const CorrectionReport& correction() const { return last_scan_.correction; }  ///< by the last scan
   /// What is free, occupied and unknown in the map, with the explorer's thresholds.
   [[nodiscard]] const OccupancyLayer<2>& occupancy() const { return occupancy_; }
-  [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }
-  [[nodiscard]] const ExplorerParams& params() const { return params_; }
-  [[nodiscard]] double time_s() const { return time_s_; }
+  [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }  ///< what gains are measured by
+  [[nodiscard]] const ExplorerParams& params() const { return params_; }  ///< as given
+  [[nodiscard]] double time_s() const { return time_s_; }  ///< the sum of all moves' durations
 
  private:
   using Cell = typename MapType::CellType;

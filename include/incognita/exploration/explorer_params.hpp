@@ -22,22 +22,22 @@ namespace incognita {
 
 /// Parameters of an Explorer.
 struct ExplorerParams {
-  OccupancyThresholds thresholds;
-  FrontierParams frontier;
-  TravelParams travel;
-  FollowParams follow;
-  CollisionGuardParams guard;
-  RetreatParams retreat;
-  GainParams gain;
-  SetAsideParams set_aside;
+  OccupancyThresholds thresholds;  ///< of what is free and what is occupied
+  FrontierParams frontier;         ///< which cells are frontiers, and how they are grouped
+  TravelParams travel;             ///< where the robot fits, and what paths like
+  FollowParams follow;             ///< how paths are followed
+  CollisionGuardParams guard;      ///< how commands are slowed before obstacles
+  RetreatParams retreat;           ///< from tight places
+  GainParams gain;                 ///< how scans are predicted
+  SetAsideParams set_aside;        ///< of goals that were of no use
   /// When set, uncertainty frontiers are gone to as well (Sansoni et al., 3.3): what was seen at a bad moment is seen again. Each is
   /// visited once, until the map around it changes. For maps of a DispersionPolicy, and information that is not of the path, which
   /// knows occupancy alone.
   std::optional<UncertaintyFrontierParams> uncertainty;
   AllowedArea area;                        ///< in the map's frame; the start must lie in it, with clearance. No path leaves it
-  Strategy strategy = Strategy::last_mile;
-  FrontierInformation information = FrontierInformation::big;
-  NavigationCost navigation = NavigationCost::geodesic;
+  Strategy strategy = Strategy::last_mile;  ///< when a goal is reconsidered
+  FrontierInformation information = FrontierInformation::big;  ///< what goals are measured by ...
+  NavigationCost navigation = NavigationCost::geodesic;  ///< ... and divided by
   double travel_offset_m = 2.0;            ///< added to costs that are ways, so that what is at hand does not always win; >= 0
   int candidates_max = 40;                 ///< so many are compared: by the gain of paths the cheapest to reach that are worth going, >= 1
   double visibility_tolerance_m = 0.05;    ///< frontiers must be seen from all places this near to a viewpoint, > 0

@@ -24,7 +24,7 @@ enum class NavigationCost {
   geodesic    ///< the travel cost of the cheapest path, (14)
 };
 
-/// navcost(x, v) of a cell that the field reaches.
+/// navcost(x, v) of a cell that the field reaches, in metres, or 1 where it is uniform.
 [[nodiscard]] inline double navigation_cost(NavigationCost kind, const TravelCostField& field, const Index<2>& goal) {
   switch (kind) {
     case NavigationCost::uniform: return 1.0;
@@ -34,7 +34,7 @@ enum class NavigationCost {
   return 1.0;
 }
 
-/// Information per cost: infinite where something is learned for nothing, 0 where nothing is.
+/// Information per cost, each of any unit: infinite where something is learned for nothing, 0 where nothing is.
 [[nodiscard]] inline double information_per_cost(double information, double cost) {
   if (!(information > 0.0)) return 0.0;
   return cost > 0.0 ? information / cost : std::numeric_limits<double>::infinity();

@@ -23,11 +23,11 @@ namespace incognita {
 /// How finely scans are predicted along a path. Poses 1 m apart with 60 beams rank candidates as 0.1 m and 360 beams do
 /// at 1/26 of the cost (reading of Seo et al.: Spearman 0.98; 2 m cost 7 % regret).
 struct GainParams {
-  double pose_spacing_m = 1.0;
-  int beams = 60;
-  double range_max_m = 10.0;   ///< of the robot's sensor
-  double speed_m_per_s = 1.0;  ///< of the robot along the path: how much time Q of (7) has
-  double scan_rate_hz = 10.0;  ///< of the robot's sensor: how many scans a predicted one stands for
+  double pose_spacing_m = 1.0;  ///< between predicted scans, > 0
+  int beams = 60;               ///< of a predicted scan, >= 1
+  double range_max_m = 10.0;    ///< of the robot's sensor
+  double speed_m_per_s = 1.0;   ///< of the robot along the path: how much time Q of (7) has
+  double scan_rate_hz = 10.0;   ///< of the robot's sensor: how many scans a predicted one stands for
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -42,9 +42,9 @@ struct GainParams {
 /// Scratch of one thread, kept from one evaluation to the next.
 template <CellPolicy Cell>
 struct GainWorkspace {
-  Overlay<Cell> overlay;
-  BeamPattern<2> beams;
-  std::vector<RayObservation> hits;
+  Overlay<Cell> overlay;             ///< the predicted map
+  BeamPattern<2> beams;              ///< see prepare()
+  std::vector<RayObservation> hits;  ///< of the scan predicted last
 
   /// Makes `beams` those that `params` ask for.
   void prepare(const GainParams& params) {
@@ -56,10 +56,11 @@ struct GainWorkspace {
 
 /// Where a ray enters and leaves a cell that it meets, in metres along its unit direction.
 struct RayInterval {
-  double enter_m;
-  double leave_m;
+  double enter_m;  ///< 0 where the ray starts inside
+  double leave_m;  ///< where it is outside again
 };
 
+/// A ray in metres in the lattice's frame, its direction of length 1. O(1).
 [[nodiscard]] inline RayInterval ray_through_cell(const Lattice<2>& lattice, const Index<2>& index,
                                                   const Eigen::Vector2d& origin, const Eigen::Vector2d& direction) {
   RayInterval interval{0.0, std::numeric_limits<double>::infinity()};
@@ -137,7 +138,7 @@ template <CellPolicy Cell, class Filter>
   return gain_nats;
 }
 
-/// The same of a map that the workspace has not looked at yet. O(tiles of the map) more.
+/// The same, in nats, of a map that the workspace has not looked at yet. O(tiles of the map) more.
 template <CellPolicy Cell, class Filter>
 [[nodiscard]] double information_gain(const Map<Cell, 2>& map, const EntropyTable& entropy, const Filter& filter,
                                       const Polyline& path, const GainParams& params, GainWorkspace<Cell>& workspace) {

@@ -42,14 +42,17 @@ struct SetAsideParams {
 /// has changed.
 class SetAsidePlaces {
  public:
+  /// With nothing set aside; the parameters must be valid.
   explicit SetAsidePlaces(const SetAsideParams& params = {}) : params_(params) {}
 
-  [[nodiscard]] bool empty() const { return places_.empty(); }
+  [[nodiscard]] bool empty() const { return places_.empty(); }  ///< whether nothing is set aside
 
+  /// Sets a place aside, in the grid's frame. O(cells within watch_radius_m).
   void add(const Eigen::Vector2d& place_m, const OccupancyGrid<2>& occupancy) {
     places_.push_back({place_m, count_known(occupancy, place_m, params_.watch_radius_m)});
   }
 
+  /// Whether one that was set aside is near, and nothing has changed there. O(places near * cells within watch_radius_m).
   [[nodiscard]] bool contains(const Eigen::Vector2d& place_m, const OccupancyGrid<2>& occupancy) const {
     for (const Place& place : places_) {
       if (distance(place.position_m, place_m) > params_.radius_m) continue;

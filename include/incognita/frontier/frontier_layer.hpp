@@ -45,6 +45,7 @@ class FrontierLayer {
     for_each_tile_of(occupancy.grid().box(), [&](const Index<Dim>& tile) { find_in(occupancy, closed, tile); });
   }
 
+  /// Whether a cell is one of the frontier's.
   [[nodiscard]] bool contains(const Index<Dim>& cell) const { return frontier_.get(cell); }
 
   /// The cells of the frontier in storage order, as detect_frontier has them. O(n log n) for n of them.

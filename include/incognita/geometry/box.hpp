@@ -11,9 +11,10 @@ namespace incognita {
 /// Empty unless lower < upper on every axis.
 template <class Vector>
 struct Box {
-  Vector lower = zero<Vector>();
-  Vector upper = zero<Vector>();
+  Vector lower = zero<Vector>();  ///< belongs to the box
+  Vector upper = zero<Vector>();  ///< does not
 
+  /// Whether it holds no point: an axis along which upper is not above lower.
   [[nodiscard]] bool empty() const {
     for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
       if (!(lower[axis] < upper[axis])) return true;
@@ -21,8 +22,9 @@ struct Box {
     return false;
   }
 
-  [[nodiscard]] Vector extent() const { return difference(upper, lower); }
+  [[nodiscard]] Vector extent() const { return difference(upper, lower); }  ///< upper - lower, along each axis
 
+  /// When both corners are equal; two empty boxes may differ.
   friend bool operator==(const Box& a, const Box& b) {
     return equal(a.lower, b.lower) && equal(a.upper, b.upper);
   }
@@ -45,6 +47,7 @@ struct Box {
     }
   }
 
+  /// Whether lower <= x < upper along each axis.
   [[nodiscard]] bool contains(const Vector& x) const {
     for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
       if (!(lower[axis] <= x[axis] && x[axis] < upper[axis])) return false;

@@ -8,7 +8,7 @@
 
 namespace incognita {
 
-/// ln |covariance|, by Cholesky's pivots. Throws std::invalid_argument, naming `where`, unless the matrix is square, finite,
+/// ln |covariance|, its entries of any unit, by Cholesky's pivots. Throws std::invalid_argument, naming `where`, unless the matrix is square, finite,
 /// symmetric and positive definite. O(n^3).
 template <class Matrix>
 [[nodiscard]] double log_determinant(const Matrix& covariance, const char* where = "log_determinant") {

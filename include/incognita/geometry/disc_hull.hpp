@@ -17,9 +17,9 @@ namespace incognita {
 /// that turns towards a goal may come by on its way.
 class DiscHull {
  public:
-  using Point = Eigen::Vector2d;
+  using Point = Eigen::Vector2d;  ///< in the plane, in any unit
 
-  /// The radius must be >= 0.
+  /// The radius, in the unit of the points, must be >= 0.
   DiscHull(const Point& apex, const Point& center, double radius)
       : apex_(apex), center_(center), radius_(radius) {
     const Point way = difference(center, apex);
@@ -33,17 +33,18 @@ class DiscHull {
     touching_[1] = {apex[0] + along * way[0] + aside * way[1], apex[1] + along * way[1] - aside * way[0]};
   }
 
-  [[nodiscard]] const Point& apex() const { return apex_; }
-  [[nodiscard]] const Point& center() const { return center_; }
-  [[nodiscard]] double radius() const { return radius_; }
+  [[nodiscard]] const Point& apex() const { return apex_; }  ///< the point beside the disc
+  [[nodiscard]] const Point& center() const { return center_; }  ///< of the disc
+  [[nodiscard]] double radius() const { return radius_; }  ///< of the disc, in the unit of its points
 
+  /// The smallest box around it, with sides along the axes.
   [[nodiscard]] Box<Point> box() const {
     Box<Point> box{{center_[0] - radius_, center_[1] - radius_}, {center_[0] + radius_, center_[1] + radius_}};
     box.stretch_to(apex_);
     return box;
   }
 
-  /// How far it is from a box; 0 where they overlap.
+  /// How far it is from a box, in the unit of the points; 0 where they overlap.
   [[nodiscard]] double distance_to(const Box<Point>& box) const {
     double least = std::max(0.0, distance_between(center_, box) - radius_);
     if (!has_tangents_ || least == 0.0) return least;

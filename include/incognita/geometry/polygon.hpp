@@ -43,7 +43,7 @@ template <class PolygonType>
   return inside;
 }
 
-/// How far a place is from the outline of a polygon; infinity from that of none. O(corners).
+/// How far a place is from the outline of a polygon, in the unit of both; infinity from that of none. O(corners).
 template <class PolygonType>
 [[nodiscard]] double distance_to_outline(const PolygonType& polygon, const typename PolygonType::value_type& place) {
   double nearest = std::numeric_limits<double>::infinity();

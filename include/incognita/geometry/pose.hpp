@@ -15,9 +15,10 @@ namespace incognita {
 template <int Dim>
 struct PoseOf;
 
+/// The plane.
 template <>
 struct PoseOf<2> {
-  using Type = Pose2;
+  using Type = Pose2;  ///< over (x, y, yaw)
 };
 
 /// Pose2 for 2; Pose3 for 3, where geometry/pose3.hpp is included, which parses a good part of Eigen.

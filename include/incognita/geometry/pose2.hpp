@@ -13,17 +13,19 @@ namespace incognita {
 /// composition reads T_a_c = T_a_b * T_b_c. Its covariance is over (x, y, yaw), in m^2, m rad and rad^2, with the
 /// position in the axes of frame a.
 struct Pose2 {
-  static constexpr int dimension = 2;
-  using Vector = Eigen::Vector2d;
-  using Rotation = Eigen::Matrix2d;
+  static constexpr int dimension = 2;  ///< of the positions
+  using Vector = Eigen::Vector2d;      ///< a position or a way, in metres
+  using Rotation = Eigen::Matrix2d;    ///< orthogonal, with determinant 1
+  /// Over (x, y, yaw) in m^2, m rad, rad^2; the position in the axes of frame a of T_a_b.
   using Covariance = Eigen::Matrix3d;
 
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double yaw_rad = 0.0;
+  double x_m = 0.0;      ///< of frame b's origin in frame a
+  double y_m = 0.0;      ///< likewise
+  double yaw_rad = 0.0;  ///< of b's x axis from a's, counter-clockwise, in (-pi, pi]
 
-  [[nodiscard]] Vector position() const { return {x_m, y_m}; }
+  [[nodiscard]] Vector position() const { return {x_m, y_m}; }  ///< (x_m, y_m)
 
+  /// Takes directions in frame b to directions in frame a.
   [[nodiscard]] Rotation rotation() const {
     Rotation matrix;
     matrix(0, 0) = matrix(1, 1) = std::cos(yaw_rad);
@@ -39,17 +41,20 @@ struct Pose2 {
     return {x_m + c * point_b[0] - s * point_b[1], y_m + s * point_b[0] + c * point_b[1]};
   }
 
+  /// T_a_c of this T_a_b; the yaw is wrapped.
   [[nodiscard]] Pose2 operator*(const Pose2& T_b_c) const {
     const Vector p = *this * T_b_c.position();
     return {p[0], p[1], wrap_angle_rad(yaw_rad + T_b_c.yaw_rad)};
   }
 
+  /// T_b_a of this T_a_b; the yaw is wrapped.
   [[nodiscard]] Pose2 inverse() const {
     const double c = std::cos(yaw_rad);
     const double s = std::sin(yaw_rad);
     return {-(c * x_m + s * y_m), s * x_m - c * y_m, wrap_angle_rad(-yaw_rad)};
   }
 
+  /// Whether all three numbers are finite.
   [[nodiscard]] bool is_finite() const {
     return std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(yaw_rad);
   }

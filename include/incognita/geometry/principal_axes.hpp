@@ -11,8 +11,8 @@ namespace incognita {
 /// values[i] belongs to axes.col(i), of length 1 and of either sign; smallest first.
 template <int Dim>
 struct PrincipalAxes {
-  Eigen::Matrix<double, Dim, 1> values;
-  Eigen::Matrix<double, Dim, Dim> axes;
+  Eigen::Matrix<double, Dim, 1> values;  ///< the eigenvalues, in the unit of the matrix
+  Eigen::Matrix<double, Dim, Dim> axes;  ///< one a column
 };
 
 /// The principal axes of a symmetric matrix by Jacobi's rotations, to rounding. The matrix must be finite.

@@ -55,6 +55,7 @@ template <class Matrix, class Vector>
   return result;
 }
 
+/// a^T b, in the units of both.
 template <class Vector>
 [[nodiscard]] double dot(const Vector& a, const Vector& b) {
   double result = a[0] * b[0];
@@ -62,6 +63,7 @@ template <class Vector>
   return result;
 }
 
+/// Whether all coordinates are, to the bit.
 template <class Vector>
 [[nodiscard]] bool equal(const Vector& a, const Vector& b) {
   for (int axis = 0; axis < Vector::RowsAtCompileTime; ++axis) {
@@ -70,13 +72,13 @@ template <class Vector>
   return true;
 }
 
-/// The length of a vector.
+/// The length of a vector, in the unit of its coordinates.
 template <class Vector>
 [[nodiscard]] double norm(const Vector& vector) {
   return std::sqrt(dot(vector, vector));
 }
 
-/// How far apart two points are.
+/// How far apart two points are, in the unit of their coordinates.
 template <class Vector>
 [[nodiscard]] double distance(const Vector& a, const Vector& b) {
   return norm(difference(a, b));

@@ -16,9 +16,9 @@ class BasicCellBits {
   static_assert(Dim == 2);
 
  public:
-  static constexpr int tile_shift = 3;
-  static constexpr int tile_side = 1 << tile_shift;
-  using Word = std::uint64_t;
+  static constexpr int tile_shift = 3;               ///< tiles are 2 to this many cells wide
+  static constexpr int tile_side = 1 << tile_shift;  ///< in cells
+  using Word = std::uint64_t;                        ///< a tile's bits, the lowest that of its lower left cell, rows upwards
 
   /// No cells yet; those that come have their bit set or not, as `fill` says.
   BasicCellBits(const Lattice<Dim>& lattice, bool fill)
@@ -44,6 +44,7 @@ class BasicCellBits {
     return {tile_of(cells.lower), {last[0] + 1, last[1] + 1}};
   }
 
+  /// Whether each cell of a box has a bit that can be set.
   [[nodiscard]] bool has_room_for(const IndexBox<Dim>& cells) const {
     return cells.empty() || tiles_.box().contains(tiles_of(cells));
   }
@@ -53,6 +54,7 @@ class BasicCellBits {
     if (!has_room_for(cells)) tiles_.grow_to_include(tiles_of(cells));
   }
 
+  /// A cell's bit; the fill beyond what there is room for.
   [[nodiscard]] bool get(const Index<Dim>& cell) const { return (tiles_.value(tile_of(cell)) & mask_of(cell)) != 0; }
 
   /// The cell must lie within what there is room for.
@@ -63,12 +65,13 @@ class BasicCellBits {
 
   /// The words, one a tile.
   [[nodiscard]] const Grid<Word, Dim>& tiles() const { return tiles_; }
-  [[nodiscard]] Grid<Word, Dim>& tiles() { return tiles_; }
+  [[nodiscard]] Grid<Word, Dim>& tiles() { return tiles_; }  ///< to be written by whoever knows their layout
 
  private:
   Grid<Word, Dim> tiles_;
 };
 
+/// The bits of a plane.
 using CellBits = BasicCellBits<2>;
 
 /// The cells of a tile that lie in a box.

@@ -91,7 +91,7 @@ class Flood {
 /// Which component each cell of a grid belongs to.
 template <int Dim>
 struct Components {
-  static constexpr std::int32_t none = -1;
+  static constexpr std::int32_t none = -1;  ///< of cells in no component
   Grid<std::int32_t, Dim>
       labels;  ///< 0, 1, ... in the storage order of the components' first cells, or `none`
   std::vector<std::size_t> sizes;  ///< cells of each component

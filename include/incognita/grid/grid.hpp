@@ -26,7 +26,7 @@ class Grid {
   static_assert(!std::is_same_v<Value, bool>, "use std::uint8_t: cells are addressed one by one");
 
  public:
-  static constexpr int dimension = Dim;
+  static constexpr int dimension = Dim;  ///< of the lattice
   /// No grid holds more cells than this: a wild coordinate must not ask for all of the memory.
   static constexpr std::int64_t cell_count_max = std::numeric_limits<int>::max();
 
@@ -36,13 +36,14 @@ class Grid {
     clear_to(box);
   }
 
-  [[nodiscard]] const Lattice<Dim>& lattice() const { return lattice_; }
-  [[nodiscard]] double resolution_m() const { return lattice_.resolution_m(); }
-  [[nodiscard]] const IndexBox<Dim>& box() const { return box_; }
-  [[nodiscard]] std::size_t size() const { return values_.size(); }
+  [[nodiscard]] const Lattice<Dim>& lattice() const { return lattice_; }  ///< where the cells are
+  [[nodiscard]] double resolution_m() const { return lattice_.resolution_m(); }  ///< the side of a cell
+  [[nodiscard]] const IndexBox<Dim>& box() const { return box_; }  ///< the cells that are stored
+  [[nodiscard]] std::size_t size() const { return values_.size(); }  ///< how many
   /// How far apart in storage two neighbours along `axis` are.
   [[nodiscard]] Offset stride(int axis) const { return stride_[static_cast<std::size_t>(axis)]; }
 
+  /// Whether a cell is stored.
   [[nodiscard]] bool contains(const Index<Dim>& index) const { return box_.contains(index); }
 
   /// The storage place of a cell of the box; the index is not checked.
@@ -52,6 +53,7 @@ class Grid {
     return offset;
   }
 
+  /// The cell of a storage place; the offset is not checked.
   [[nodiscard]] Index<Dim> index_at(Offset offset) const {
     Index<Dim> index;
     for (int axis = Dim - 1; axis > 0; --axis) {
@@ -62,8 +64,8 @@ class Grid {
     return index;
   }
 
-  [[nodiscard]] Value& operator[](Offset offset) { return values_[static_cast<std::size_t>(offset)]; }
-  [[nodiscard]] const Value& operator[](Offset offset) const { return values_[static_cast<std::size_t>(offset)]; }
+  [[nodiscard]] Value& operator[](Offset offset) { return values_[static_cast<std::size_t>(offset)]; }  ///< not checked
+  [[nodiscard]] const Value& operator[](Offset offset) const { return values_[static_cast<std::size_t>(offset)]; }  ///< not checked
 
   /// The value of a cell, the fill value outside of the box.
   [[nodiscard]] const Value& value(const Index<Dim>& index) const {
@@ -76,8 +78,8 @@ class Grid {
     (*this)[offset_of(index)] = value;
   }
 
-  [[nodiscard]] const std::vector<Value>& values() const { return values_; }
-  [[nodiscard]] std::vector<Value>& values() { return values_; }
+  [[nodiscard]] const std::vector<Value>& values() const { return values_; }  ///< in storage order, x fastest
+  [[nodiscard]] std::vector<Value>& values() { return values_; }  ///< to be changed, not resized
 
   /// Makes the grid one of `box`, each cell the fill value, in the storage that it has if that is enough. Throws
   /// std::length_error above cell_count_max.

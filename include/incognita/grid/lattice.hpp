@@ -52,7 +52,7 @@ template <int Dim>
 template <int Dim>
 class Lattice {
  public:
-  static constexpr int dimension = Dim;
+  static constexpr int dimension = Dim;  ///< 2 or 3
 
   /// Throws std::invalid_argument unless resolution_m is finite and > 0 and the origin is finite.
   explicit Lattice(double resolution_m, const Point<Dim>& origin_m = zero<Point<Dim>>())
@@ -63,8 +63,8 @@ class Lattice {
     }
   }
 
-  [[nodiscard]] double resolution_m() const { return resolution_m_; }
-  [[nodiscard]] const Point<Dim>& origin_m() const { return origin_m_; }
+  [[nodiscard]] double resolution_m() const { return resolution_m_; }  ///< the side of a cell
+  [[nodiscard]] const Point<Dim>& origin_m() const { return origin_m_; }  ///< the lower corner of cell 0
 
   /// Lattice coordinates: cell i covers [i, i + 1).
   [[nodiscard]] Point<Dim> to_cells(const Point<Dim>& point_m) const {
@@ -76,6 +76,7 @@ class Lattice {
     return cell_holding<Dim>(to_cells(point_m));
   }
 
+  /// The centre of a cell, in the lattice's frame.
   [[nodiscard]] Point<Dim> center_m(const Index<Dim>& index) const {
     Point<Dim> center;
     for (int axis = 0; axis < Dim; ++axis) center[axis] = origin_m_[axis] + (index[axis] + 0.5) * resolution_m_;

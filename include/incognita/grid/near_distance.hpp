@@ -25,7 +25,7 @@ class BasicNearDistances {
   static_assert(Dim == 2);
 
  public:
-  using Squared = std::uint16_t;
+  using Squared = std::uint16_t;  ///< of squares of up to 2 * 90^2
   /// The largest reach: twice the square of its distance fits the type.
   static constexpr int reach_max = 90;
 
@@ -47,7 +47,7 @@ class BasicNearDistances {
 
   /// By cell, in units of unit_cells(), squared; beyond() where nothing is as near as `reach` steps along one axis.
   [[nodiscard]] const Grid<Squared, Dim>& squared() const { return squared_; }
-  [[nodiscard]] Squared beyond() const { return beyond_; }
+  [[nodiscard]] Squared beyond() const { return beyond_; }  ///< more than any distance that is measured
 
   /// The sides of squares lie between the centres of cells: distances to them are counted in halves of a cell.
   [[nodiscard]] double unit_cells() const { return shape_ == CellShape::centers ? 1.0 : 0.5; }
@@ -107,6 +107,7 @@ class BasicNearDistances {
   Squared beyond_ = 1;
 };
 
+/// Those of a plane.
 using NearDistances = BasicNearDistances<2>;
 
 /// The same in metres, and distance_max_m where nothing is nearer: min(distance_max_m, distance), exact up to the rounding of a

@@ -19,9 +19,9 @@ class SegmentWalk {
  public:
   /// Some cells of a tile; `place` is the offset of its word.
   struct TileCells {
-    Offset place;
-    Index<2> tile;
-    CellBits::Word cells;
+    Offset place;          ///< of the tile's word among the tiles
+    Index<2> tile;         ///< its index
+    CellBits::Word cells;  ///< the bits of the segment's cells
   };
 
   /// Between two points in lattice coordinates; the last cell is one of the walk's or not.

@@ -10,7 +10,7 @@ namespace incognita {
 /// The words of a tile and of those around it, and what lies one step from each of its cells, in the places of those.
 class TileNeighbors {
  public:
-  using Word = CellBits::Word;
+  using Word = CellBits::Word;  ///< a tile's bits, see BasicCellBits
 
   /// word_at(tile) gives the word of a tile.
   template <class WordAt>
@@ -20,11 +20,13 @@ class TileNeighbors {
     }
   }
 
-  [[nodiscard]] Word center() const { return word(0, 0); }
+  [[nodiscard]] Word center() const { return word(0, 0); }  ///< the tile itself
+  /// Of each cell the one to its left, dy tiles up.
   [[nodiscard]] Word left(int dy = 0) const { return (word(0, dy) << 1U & ~first_column) | (word(-1, dy) >> 7U & first_column); }
+  /// Of each cell the one to its right, dy tiles up.
   [[nodiscard]] Word right(int dy = 0) const { return (word(0, dy) >> 1U & ~last_column) | (word(1, dy) << 7U & last_column); }
-  [[nodiscard]] Word below() const { return word(0, 0) << 8U | word(0, -1) >> 56U; }
-  [[nodiscard]] Word above() const { return word(0, 0) >> 8U | word(0, 1) << 56U; }
+  [[nodiscard]] Word below() const { return word(0, 0) << 8U | word(0, -1) >> 56U; }  ///< of each cell the one below
+  [[nodiscard]] Word above() const { return word(0, 0) >> 8U | word(0, 1) << 56U; }  ///< of each cell the one above
 
   /// The cells of the tile that have a set cell beside them, across a side.
   [[nodiscard]] Word beside() const { return left() | right() | below() | above(); }

@@ -30,6 +30,7 @@ namespace incognita {
 /// wrong" with the value and the bound that it breaks, whatever the file holds.
 class InputError : public std::runtime_error {
  public:
+  /// "<file>: <problem>", with control characters taken out and cut to a length that can be read.
   InputError(const std::filesystem::path& file, std::string_view problem)
       : InputError(file.string(), problem) {}
 
@@ -37,7 +38,7 @@ class InputError : public std::runtime_error {
   InputError(const std::string& source, std::string_view problem)
       : std::runtime_error(one_line(source, 4096) + ": " + one_line(problem, 1000)) {}
 
-  InputError(const char* source, std::string_view problem) : InputError(std::string(source), problem) {}
+  InputError(const char* source, std::string_view problem) : InputError(std::string(source), problem) {}  ///< the same
 };
 
 }  // namespace incognita

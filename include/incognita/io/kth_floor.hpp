@@ -16,14 +16,18 @@
 namespace incognita {
 
 /// What a piece of a room's contour is.
-enum class KthSegmentType { wall, window, portal };
+enum class KthSegmentType {
+  wall,    ///< solid
+  window,  ///< solid too
+  portal   ///< a door, or an opening into another room
+};
 
 /// A piece of a room's contour, in metres.
 struct KthSegment {
-  Point<2> from_m;
-  Point<2> to_m;
-  KthSegmentType type = KthSegmentType::wall;
-  std::string target;  ///< of a portal: the name of the room behind it
+  Point<2> from_m;                             ///< in the file's frame
+  Point<2> to_m;                               ///< likewise
+  KthSegmentType type = KthSegmentType::wall;  ///< what stands there
+  std::string target;                          ///< of a portal: the name of the room behind it
 };
 
 /// A closed line around (a part of) a room. Where the file leaves a gap between two segments, the contour
@@ -32,12 +36,13 @@ using KthContour = std::vector<KthSegment>;
 
 /// A room, a corridor, a staircase.
 struct KthSpace {
-  std::string name;
-  std::vector<KthContour> contours;
+  std::string name;                  ///< as the file has it; portals name it
+  std::vector<KthContour> contours;  ///< outlines; more than one where it has several parts
 };
 
+/// A storey.
 struct KthFloor {
-  std::vector<KthSpace> spaces;
+  std::vector<KthSpace> spaces;  ///< in the order of the file
 };
 
 namespace detail {

@@ -136,6 +136,7 @@ inline void enclose_floor(FloorPlan& plan) {
 
 }  // namespace detail
 
+/// How finely a floor is drawn.
 struct KthRasterParams {
   double pixel_size_m = 0.05;  ///< >= 0.001
 };

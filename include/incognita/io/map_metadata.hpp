@@ -17,17 +17,21 @@
 namespace incognita {
 
 /// How map_server reads a pixel; see probabilities_of.
-enum class MapMode { trinary, scale, raw };
+enum class MapMode {
+  trinary,  ///< occupied, free or unknown
+  scale,    ///< a probability between the thresholds
+  raw       ///< a probability in percent
+};
 
 /// The fields of a map_server YAML file. The defaults are what map_saver writes.
 struct MapMetadata {
-  std::filesystem::path image;  ///< ready to be opened: relative names are resolved against the YAML's folder
-  double resolution_m = 0.05;   ///< metres per pixel
+  std::filesystem::path image;           ///< ready to be opened: relative names are resolved against the YAML's folder
+  double resolution_m = 0.05;            ///< metres per pixel
   Point<2> origin_m = Point<2>::Zero();  ///< the lower left corner of the lower left pixel
   bool negate = false;                   ///< white is occupied instead of black
   double occupied_thresh = 0.65;         ///< more than this probability is occupied
   double free_thresh = 0.196;            ///< less than this probability is free
-  MapMode mode = MapMode::trinary;
+  MapMode mode = MapMode::trinary;       ///< trinary where the file names none
 };
 
 namespace detail {

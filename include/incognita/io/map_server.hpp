@@ -84,8 +84,8 @@ namespace detail {
 
 /// From which probability on a cell is a wall or floor.
 struct FloorThresholds {
-  double wall_above = 0.65;
-  double floor_below = 0.196;
+  double wall_above = 0.65;    ///< a probability of occupancy
+  double floor_below = 0.196;  ///< a probability likewise
 };
 
 /// A map as a floor plan: a wall above one probability, floor below another, solid between them and where the
@@ -102,7 +102,10 @@ struct FloorThresholds {
 }
 
 /// The image of a map_server map.
-enum class MapImage { png, pgm };
+enum class MapImage {
+  png,  ///< with alpha where it is needed
+  pgm   ///< grey, for readers that know no other
+};
 
 /// Writes a grid as `yaml_file` and an image of the same name beside it, so that map_server and
 /// read_map_server give it back: in trinary mode 1 above a probability of 0.65, 0 below 0.196, unknown

@@ -10,7 +10,7 @@
 
 namespace incognita {
 
-/// The number that the whole of `text` spells, a sign included; nothing when it spells none or one that a
+/// The number, of any unit, that the whole of `text` spells, a sign included; nothing when it spells none or one that a
 /// double cannot hold. "nan" and "inf" are numbers here: check std::isfinite where they are not welcome.
 [[nodiscard]] inline std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -20,7 +20,7 @@ namespace incognita {
   return value;
 }
 
-/// The shortest text that parse_number takes back to the same double.
+/// The shortest text of a number, of any unit, that parse_number takes back to the same double.
 [[nodiscard]] inline std::string format_number(double value) {
   std::array<char, 32> buffer;
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};

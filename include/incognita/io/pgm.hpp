@@ -126,6 +126,7 @@ class PgmReader {
 }
 
 /// The bytes of a P5 file with this image, which must be grey (one channel). `file` is only named in errors.
+/// Throws InputError for another number of channels and for sizes that require_image_size refuses.
 [[nodiscard]] inline std::string encode_pgm(const Image& image, const std::filesystem::path& file) {
   require_image_size(file, image.width_px, image.height_px);
   if (image.channels != 1) {

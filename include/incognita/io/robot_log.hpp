@@ -22,8 +22,8 @@ namespace incognita {
 
 /// A scan and where odometry had the robot.
 struct LogScan {
-  double time_s = 0.0;
-  Pose2 T_odom_robot;
+  double time_s = 0.0;           ///< of its stamp
+  Pose2 T_odom_robot;            ///< when it was taken
   std::vector<double> ranges_m;  ///< one a beam, as Scan<2> takes them
 };
 
@@ -71,17 +71,19 @@ struct RobotLogParams {
 /// A log, ready to be mapped: Scan<2>(beams, scans[i].ranges_m). It holds at least one scan, in the order of
 /// time.
 struct RobotLog {
-  BeamPattern<2> beams;  ///< in the laser's frame
-  Pose2 T_robot_laser;
-  RangeLimits limits;  ///< what was applied to the readings
-  std::vector<LogScan> scans;
+  BeamPattern<2> beams;        ///< in the laser's frame
+  Pose2 T_robot_laser;         ///< where the laser is mounted
+  RangeLimits limits;          ///< what was applied to the readings
+  std::vector<LogScan> scans;  ///< in the order of time
 
-  [[nodiscard]] double duration_s() const { return scans.back().time_s - scans.front().time_s; }
+  [[nodiscard]] double duration_s() const { return scans.back().time_s - scans.front().time_s; }  ///< from the first scan to the last
 };
 
 /// No log has more scans, nor a scan more readings: a hostile file must not ask for all of the memory.
 inline constexpr std::size_t log_scans_max = std::size_t{1} << 20;
+/// Of a scan.
 inline constexpr std::size_t log_beams_max = 10000;
+/// Of a log.
 inline constexpr std::size_t log_readings_max = std::size_t{1} << 26;
 /// No robot is farther from the origin of its odometry.
 inline constexpr double log_position_max_m = 1e6;

@@ -21,8 +21,8 @@ namespace incognita {
 
 /// Where a robot was at a time, in the trajectory's own frame.
 struct TimedPose2 {
-  double time_s = 0.0;
-  Pose2 pose;
+  double time_s = 0.0;  ///< of its stamp
+  Pose2 pose;           ///< T_frame_robot
 };
 
 namespace detail {

@@ -21,12 +21,12 @@ class DriftGraph {
   /// Adds a body and returns its number. O(1).
   int add_body() { return bodies_++; }
 
-  [[nodiscard]] int bodies() const { return bodies_; }
-  [[nodiscard]] std::size_t links() const { return links_.size(); }
+  [[nodiscard]] int bodies() const { return bodies_; }  ///< how many were added
+  [[nodiscard]] std::size_t links() const { return links_.size(); }  ///< likewise
 
   /// Measured: d = (twist of `to`) - (twist of `from`) costs d^T information d - 2 d^T vector, so a mean m is given as
-  /// vector = information * m, and information may be singular (a wall says nothing along itself). Both bodies must have
-  /// been added. Amortised O(1); 104 bytes.
+  /// vector = information * m, and information may be singular (a wall says nothing along itself). Throws
+  /// std::invalid_argument unless both bodies have been added and differ. Amortised O(1); 104 bytes.
   void add_link(int from, int to, const Eigen::Matrix3d& information, const Eigen::Vector3d& vector) {
     require(from >= 0 && from < bodies_, "DriftGraph", "from", from, "a body");
     require(to >= 0 && to < bodies_ && to != from, "DriftGraph", "to", to, "a body other than `from`");

@@ -24,7 +24,7 @@ class KeptScans {
     require(scans_max >= 2, "KeptScans", "scans_max", scans_max, ">= 2");
   }
 
-  [[nodiscard]] std::size_t size() const { return kept_.size(); }
+  [[nodiscard]] std::size_t size() const { return kept_.size(); }  ///< how many are kept
 
   /// Keeps a scan taken at `belief`, while its piece was moved by `twist`; or not, when there have been too many.
   void add(const Scan<2>& scan, const PoseBelief& belief, int piece, const Eigen::Vector3d& twist) {

@@ -38,6 +38,7 @@ namespace incognita {
 /// piece and in drawing the belief again; both grow with the time driven. Not thread safe.
 class LoopClosure {
  public:
+  /// What counts as a return, and when the map is moved and drawn again.
   struct Params {
     bool closes_loops = true;           ///< false: nothing is measured, kept or moved
     double age_share_min = 0.1;         ///< of a scan's beams must meet old surfaces, and at least so many new ones, in (0, 0.5]
@@ -62,11 +63,12 @@ class LoopClosure {
 
   /// What a filter knows when a piece is born.
   struct Keyframe {
-    const Scan<2>& scan;
+    const Scan<2>& scan;                      ///< must outlive the call
     Pose2 pose;                               ///< where the scan was taken
     std::optional<Compass::Heading> heading;  ///< that the walls in the scan give
   };
 
+  /// With the default parameters.
   LoopClosure() : LoopClosure(Params{}) {}
 
   /// Throws std::invalid_argument for parameters outside of their bounds.
@@ -138,6 +140,7 @@ class LoopClosure {
   /// Whether the kept scans are now known to have been taken so far from where the belief has them that it should be drawn
   /// again; until redrawn().
   [[nodiscard]] bool is_redraw_due() const { return is_redraw_due_; }
+  /// To be called when the belief has been drawn again.
   void redrawn() {
     is_redraw_due_ = false;
     ++redraws_;
@@ -146,8 +149,8 @@ class LoopClosure {
   /// How often the belief was drawn again.
   [[nodiscard]] int redraws() const { return redraws_; }
 
-  [[nodiscard]] const KeptScans& kept() const { return kept_; }
-  [[nodiscard]] const DriftGraph& graph() const { return graph_; }
+  [[nodiscard]] const KeptScans& kept() const { return kept_; }  ///< the scans to draw the belief from
+  [[nodiscard]] const DriftGraph& graph() const { return graph_; }  ///< the pieces of the map and what ties them
 
  private:
   /// Surfaces of the pieces in [first, end), where they are now known to be.

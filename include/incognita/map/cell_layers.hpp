@@ -13,6 +13,7 @@ template <int Dim>
 struct CellLayers {
   static_assert(Dim == 2);
 
+  /// Of a map that has no cells yet.
   explicit CellLayers(const Lattice<Dim>& lattice)
       : heeding(lattice, true), blocked(lattice, false), written(lattice, false), changed(lattice, false) {}
 
@@ -46,6 +47,7 @@ struct CellLayers {
     blocks = (blocks & ~cells) | are_blocked;
   }
 
+  /// Nothing is changed any more. O(tiles changed).
   void forget_changes() {
     for (const Index<Dim>& tile : changed_tiles) changed.tiles()[changed.tiles().offset_of(tile)] = 0;
     changed_tiles.clear();

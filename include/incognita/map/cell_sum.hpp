@@ -17,6 +17,7 @@ namespace incognita {
 template <class Measure>
 class CellSum {
  public:
+  /// Of a map on this lattice that has no cells yet; rebuild takes one that has.
   explicit CellSum(const Lattice<2>& lattice, Measure measure = Measure{})
       : measure_(std::move(measure)), tiles_(CellBits(lattice, false).tiles().lattice()) {}
 
@@ -41,6 +42,7 @@ class CellSum {
     for_each_tile_of(map.grid().box(), [&](const Index<2>& tile) { take_tile(map, tile); });
   }
 
+  /// The sum, in the unit of the measure.
   [[nodiscard]] double value() const { return static_cast<double>(total_) / units_per_one; }
 
  private:

@@ -16,10 +16,11 @@ namespace incognita {
 /// The log-odds of the dispersion probability of points along one beam.
 template <int Ranges>
 struct DispersionBeam {
-  std::array<float, Ranges> nodes;  // at evenly spaced roots of the range
-  float range_m;                    // as measured
-  float nodes2_per_m;               // the square of what takes a root of the range to its place between the nodes
+  std::array<float, Ranges> nodes;  ///< log-odds at evenly spaced roots of the range
+  float range_m;                    ///< as measured
+  float nodes2_per_m;               ///< the square of what takes a root of the range to its place between the nodes
 
+  /// Of a point at a range, interpolated; negative ranges count as 0.
   [[nodiscard]] float log_odds_at(float at_range_m) const {
     const float place = std::sqrt(nodes2_per_m * std::max(0.0F, at_range_m));
     const int node = std::min(static_cast<int>(place), Ranges - 2);
@@ -76,9 +77,9 @@ template <class Floats>
 template <int Ranges, int Directions>
 class BasicDispersionView {
  public:
-  using Beam = DispersionBeam<Ranges>;
+  using Beam = DispersionBeam<Ranges>;           ///< what it gives for one direction
   static constexpr float log_odds_min = -16.0F;  ///< a sigma of some 100 m
-  static constexpr float log_odds_max = 8.0F;
+  static constexpr float log_odds_max = 8.0F;    ///< a sigma of an eighth of the side of a box
 
   /// The covariance as Pose2::Covariance; box of side_m by side_m. All arguments must be valid.
   BasicDispersionView(const Pose2::Covariance& covariance, double range_max_m, const RangeBearingNoise& noise, double side_m) {
@@ -144,6 +145,7 @@ class BasicDispersionView {
   float nodes2_per_m_ = 0.0F;
 };
 
+/// As many directions and ranges as keep what BasicDispersionView promises.
 using DispersionView = BasicDispersionView<32, 32>;
 
 }  // namespace incognita

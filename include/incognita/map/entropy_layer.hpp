@@ -12,6 +12,7 @@ namespace incognita {
 template <class Entropy>
 class EntropyLayer {
  public:
+  /// Of a map on this lattice that has no cells yet; `entropy` is a measure of log-odds in nats, such as an EntropyTable.
   EntropyLayer(const Lattice<2>& lattice, Entropy entropy) : sum_(lattice, Information(std::move(entropy))) {}
 
   /// As CellSum::follow.

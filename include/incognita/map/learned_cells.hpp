@@ -14,6 +14,7 @@ namespace incognita {
 template <int Dim>
 class LearnedCells {
  public:
+  /// On the lattice of the map, with nothing learned yet.
   explicit LearnedCells(const Lattice<Dim>& lattice) : known_(lattice, false) {}
 
   /// Takes over what the last follow or rebuild of the layer changed. O(tiles changed).
@@ -27,7 +28,7 @@ class LearnedCells {
     }
   }
 
-  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t count() const { return count_; }  ///< how many; never falls
 
  private:
   CellBits known_;

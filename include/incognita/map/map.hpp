@@ -37,9 +37,9 @@ struct MapParams {
 template <CellPolicy Cell = TBayes, int Dim = 2>
 class Map {
  public:
-  using CellType = Cell;
-  using State = typename Cell::State;
-  static constexpr int dimension = Dim;
+  using CellType = Cell;                 ///< the policy
+  using State = typename Cell::State;    ///< of one cell
+  static constexpr int dimension = Dim;  ///< 2 or 3
 
   /// Throws std::invalid_argument for bad parameters.
   explicit Map(const MapParams& params = {}, Cell cell = Cell{})
@@ -49,12 +49,12 @@ class Map {
             static_cast<double>(params.blocked_above), "finite and >= 0");
   }
 
-  [[nodiscard]] const Cell& cell() const { return cell_; }
-  [[nodiscard]] const Grid<State, Dim>& grid() const { return grid_; }
-  [[nodiscard]] const Lattice<Dim>& lattice() const { return grid_.lattice(); }
-  [[nodiscard]] double resolution_m() const { return params_.resolution_m; }
-  [[nodiscard]] float blocked_above() const { return params_.blocked_above; }
-  [[nodiscard]] double hit_push_m() const { return params_.hit_push_cells * params_.resolution_m; }
+  [[nodiscard]] const Cell& cell() const { return cell_; }  ///< the policy, with its parameters
+  [[nodiscard]] const Grid<State, Dim>& grid() const { return grid_; }  ///< the states of all cells
+  [[nodiscard]] const Lattice<Dim>& lattice() const { return grid_.lattice(); }  ///< in the map's frame
+  [[nodiscard]] double resolution_m() const { return params_.resolution_m; }  ///< the side of a cell
+  [[nodiscard]] float blocked_above() const { return params_.blocked_above; }  ///< in log-odds, see MapParams
+  [[nodiscard]] double hit_push_m() const { return params_.hit_push_cells * params_.resolution_m; }  ///< see MapParams
 
   /// How many scans were written; what follows a map knows by it whether it has missed one.
   [[nodiscard]] std::uint64_t update_count() const { return update_count_; }
@@ -78,7 +78,9 @@ class Map {
 
   /// Natural log-odds of a cell; 0 where nothing was ever measured.
   [[nodiscard]] float log_odds(const Index<Dim>& index) const { return Cell::log_odds(grid_.value(index)); }
+  /// Of a cell by its offset, which is not checked.
   [[nodiscard]] float log_odds(Offset offset) const { return Cell::log_odds(grid_[offset]); }
+  /// That a cell is occupied; 1/2 beyond the map's box.
   [[nodiscard]] double probability(const Index<Dim>& index) const {
     return probability_of_log_odds(static_cast<double>(log_odds(index)));
   }
@@ -174,7 +176,7 @@ class Map {
   }
 
  public:
-  static constexpr ScanStamp stamp_last = 60000;
+  static constexpr ScanStamp stamp_last = 60000;  ///< after so many scans all stamps are forgotten
 
  private:
   Cell cell_;
@@ -186,7 +188,7 @@ class Map {
   std::uint64_t update_count_ = 0;
 };
 
-/// Every cell of the map's box in one word.
+/// Every cell of the map's box in one word. Throws std::invalid_argument for bad thresholds. O(cells).
 template <CellPolicy Cell, int Dim>
 [[nodiscard]] OccupancyGrid<Dim> classify(const Map<Cell, Dim>& map, const OccupancyThresholds& thresholds = {}) {
   thresholds.validate();

@@ -10,7 +10,12 @@
 
 namespace incognita {
 
-enum class Occupancy : std::uint8_t { unknown, free, occupied };
+/// What a belief is reduced to.
+enum class Occupancy : std::uint8_t {
+  unknown,  ///< measured too little, or never
+  free,     ///< below one threshold of log-odds
+  occupied  ///< above another
+};
 
 /// A map reduced to what frontiers and planners need. Make it with Occupancy::unknown as the fill value.
 template <int Dim>
@@ -31,6 +36,7 @@ struct OccupancyThresholds {
     return {std::nextafter(log_odds(free_max), infinity), std::nextafter(log_odds(occupied_min), -infinity)};
   }
 
+  /// What log-odds make of a cell.
   [[nodiscard]] Occupancy classify(float log_odds) const {
     if (log_odds < free_below) return Occupancy::free;
     return log_odds > occupied_above ? Occupancy::occupied : Occupancy::unknown;

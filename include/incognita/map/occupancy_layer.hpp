@@ -56,9 +56,9 @@ class OccupancyLayer {
     *this = std::move(anew);
   }
 
-  [[nodiscard]] const OccupancyGrid<Dim>& grid() const { return grid_; }
-  [[nodiscard]] const CellBits& free() const { return free_; }
-  [[nodiscard]] const CellBits& occupied() const { return occupied_; }
+  [[nodiscard]] const OccupancyGrid<Dim>& grid() const { return grid_; }  ///< of all cells of the map
+  [[nodiscard]] const CellBits& free() const { return free_; }  ///< a bit for each free cell
+  [[nodiscard]] const CellBits& occupied() const { return occupied_; }  ///< likewise
 
   /// The tiles in which a cell may have become something else by the last follow or rebuild.
   [[nodiscard]] const std::vector<Index<Dim>>& changed_tiles() const { return changed_tiles_; }

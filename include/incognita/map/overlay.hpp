@@ -19,7 +19,7 @@ namespace incognita {
 template <CellPolicy Cell>
 class Overlay {
  public:
-  using State = typename Cell::State;
+  using State = typename Cell::State;  ///< of one cell
 
   /// Forgets all changes and looks at `map`, as it is now, from now on. The map must outlive the use. O(tiles of the map).
   void look_at(const Map<Cell, 2>& map) {
@@ -55,6 +55,7 @@ class Overlay {
     stamp_ = map_->stamp();
   }
 
+  /// What it looks at; not to be asked before look_at.
   [[nodiscard]] const Map<Cell, 2>& map() const { return *map_; }
 
   /// The cells' layers as the predicted scans leave them; `changed` are the cells that differ from the map, or may.

@@ -21,7 +21,7 @@ namespace incognita {
 
 /// What became of the beams of a scan.
 struct ScanReport {
-  std::size_t beams_used = 0;
+  std::size_t beams_used = 0;     ///< hits, and beams that met nothing
   std::size_t beams_ignored = 0;  ///< NaN, infinite, negative or out of range
 };
 
@@ -76,7 +76,7 @@ class MapBeams {
     report_ = {beams_.size(), scan.size() - beams_.size()};
   }
 
-  [[nodiscard]] const ScanReport& report() const { return report_; }
+  [[nodiscard]] const ScanReport& report() const { return report_; }  ///< of the scan last taken
 
   /// A box that holds every cell that the beams meet, with a cell to spare on each side: an end point on the face of a cell
   /// may be rounded to either side of it.
@@ -108,10 +108,10 @@ class MapBeams {
     }
   }
 
-  /// The same in the plane, by way of the cells' layers, which are kept up to date: of cells that ignore passes nothing is
-  /// looked at but a bit. `states` gives access: states.open(place, tile, cells) to a tile's states by bit, of which `cells`
-  /// are about to be written; states.clear(place, tile, cells) makes them policy.cleared(). O(cells passed that do not ignore
-  /// passes, and tiles passed).
+  /// The same in the plane, where cells with log-odds over blocked_above end predicted rays, by way of the cells' layers, which are
+  /// kept up to date: of cells that ignore passes nothing is looked at but a bit. `states` gives access: states.open(place, tile, cells)
+  /// to a tile's states by bit, of which `cells` are about to be written; states.clear(place, tile, cells) makes them
+  /// policy.cleared(). O(cells passed that do not ignore passes, and tiles passed).
   template <class States>
   void write(const Cell& policy, CellLayers<Dim>& layers, float blocked_above, ScanStamp stamp, States&& states)
     requires(Dim == 2)
@@ -168,7 +168,7 @@ class MapBeams {
     report_ = {beams_.size(), pattern.directions.size() - beams_.size()};
   }
 
-  /// Writes what cast took, as `write` would write such a scan with that covariance of its pose.
+  /// Writes what cast took, as `write` would write such a scan with that covariance of its pose; blocked_above is in log-odds.
   template <class States>
   void write_cast(const Cell& policy, CellLayers<Dim>& layers, float blocked_above, ScanStamp stamp,
                   const Pose2::Covariance& covariance, States&& states)

@@ -11,7 +11,7 @@
 namespace incognita {
 
 /// Gauss' bound (5): of any unimodal variable with its mean at its mode, P(|X - mu| < side / 2) is at least this, for
-/// 0 < side <= 4 sigma / sqrt(3). Throws std::invalid_argument for a side or sigma out of these bounds.
+/// 0 < side <= 4 sigma / sqrt(3), both of any unit: a probability. Throws std::invalid_argument for a side or sigma out of these bounds.
 [[nodiscard]] inline double gauss_bound(double side, double sigma) {
   require_positive("gauss_bound", "sigma", sigma);
   require_positive("gauss_bound", "side", side);
@@ -19,8 +19,8 @@ namespace incognita {
   return side / (2.0 * sigma * std::numbers::sqrt3);
 }
 
-/// a of (9) and (17) as printed, from Gauss' bound: the mean side of a box, (s_1 ... s_N)^(1 / N), by 2 sqrt(3). Throws
-/// std::invalid_argument for a side that is not finite and > 0.
+/// a of (9) and (17) as printed, from Gauss' bound: the mean side of a box, (s_1 ... s_N)^(1 / N), by 2 sqrt(3), in the unit of
+/// the sides. Throws std::invalid_argument for a side that is not finite and > 0.
 template <class Vector>
 [[nodiscard]] double gauss_scale(const Vector& sides) {
   double log_product = 0.0;
@@ -60,6 +60,7 @@ class UncertaintyOfDispersion {
                                               : std::sqrt(policy.beta()) * policy.params().sigma_max_m),
         tolerated_m_(a_m_ / std::sqrt(policy.beta())) {}
 
+  /// In metres.
   [[nodiscard]] double operator()(double log_odds) const { return a_m_ * std::sqrt(1.0 + std::exp(-log_odds)); }
 
   /// U_beta: that of what is just tolerated, and of a cell that was never seen.

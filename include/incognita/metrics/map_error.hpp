@@ -26,10 +26,10 @@ class MapError {
     ++cells.count;
   }
 
-  [[nodiscard]] std::size_t occupied_count() const { return occupied_.count; }
-  [[nodiscard]] std::size_t free_count() const { return free_.count; }
+  [[nodiscard]] std::size_t occupied_count() const { return occupied_.count; }  ///< the truly occupied cells that were added
+  [[nodiscard]] std::size_t free_count() const { return free_.count; }  ///< the truly free ones
 
-  /// A class without cells adds 0.
+  /// Without a unit, in [0, sqrt(2)]. A class without cells adds 0.
   [[nodiscard]] double value() const { return std::sqrt(occupied_.mean() + free_.mean()); }
 
  private:

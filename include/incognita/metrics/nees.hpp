@@ -70,11 +70,12 @@ class MeanNees {
     ++count_;
   }
 
-  [[nodiscard]] std::size_t count() const { return count_; }
-  /// 0 before the first sample.
+  [[nodiscard]] std::size_t count() const { return count_; }  ///< of poses added
+  /// Without a unit; 0 before the first sample.
   [[nodiscard]] double position() const {
     return count_ == 0 ? 0.0 : position_sum_ / static_cast<double>(count_);
   }
+  /// Likewise without a unit, of position and heading.
   [[nodiscard]] double pose() const { return count_ == 0 ? 0.0 : pose_sum_ / static_cast<double>(count_); }
 
  private:

@@ -17,16 +17,16 @@ namespace incognita {
 
 /// The pose that a robot had at a time, seen from its pose at another.
 struct PoseRelation {
-  double from_s = 0.0;
-  double to_s = 0.0;
-  Pose2 T_from_to;
+  double from_s = 0.0;  ///< a stamp of the trajectory
+  double to_s = 0.0;    ///< a later or an earlier one
+  Pose2 T_from_to;      ///< true, as measured
 };
 
 /// Means over the relations whose two stamps the trajectory has; all 0 when it has none.
 struct RelationsError {
-  std::size_t matched = 0;
-  double translation_mean_m = 0.0;
-  double rotation_mean_rad = 0.0;
+  std::size_t matched = 0;          ///< relations
+  double translation_mean_m = 0.0;  ///< of distances
+  double rotation_mean_rad = 0.0;   ///< of absolute turns
 };
 
 /// The metric of Kümmerle et al. (2009, "On measuring the accuracy of SLAM algorithms"): the mean distance

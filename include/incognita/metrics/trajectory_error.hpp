@@ -19,6 +19,7 @@ namespace incognita {
 /// section VI-A, "Localization error". Everything is 0 before the first pair.
 class TrajectoryError {
  public:
+  /// A pair of one time, in one frame.
   void add(const Pose2& estimated, const Pose2& truth) {
     const double distance_m = distance(estimated.position(), truth.position());
     const double turn_rad = angle_between_rad(truth.yaw_rad, estimated.yaw_rad);
@@ -29,12 +30,13 @@ class TrajectoryError {
     ++count_;
   }
 
-  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t count() const { return count_; }  ///< of pairs
+  /// The root of the mean squared distance.
   [[nodiscard]] double translation_rmse_m() const { return std::sqrt(mean(squared_distances_m2_)); }
   /// The mean of the distances.
   [[nodiscard]] double translation_mae_m() const { return mean(distances_m_); }
-  [[nodiscard]] double translation_max_m() const { return translation_max_m_; }
-  [[nodiscard]] double heading_rmse_rad() const { return std::sqrt(mean(squared_turns_rad2_)); }
+  [[nodiscard]] double translation_max_m() const { return translation_max_m_; }  ///< the largest distance
+  [[nodiscard]] double heading_rmse_rad() const { return std::sqrt(mean(squared_turns_rad2_)); }  ///< of the turns between them
 
  private:
   [[nodiscard]] double mean(double sum) const {

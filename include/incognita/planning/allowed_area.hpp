@@ -13,8 +13,9 @@ namespace incognita {
 /// What lies in the bounds and in no no-go polygon, in metres in a frame of the user's choice. A plain value; by default, everywhere.
 struct AllowedArea {
   Polygon bounds;              ///< no corners: no bounds
-  std::vector<Polygon> no_go;
+  std::vector<Polygon> no_go;  ///< closed polygons, in the frame of `bounds`
 
+  /// Whether nothing is forbidden.
   [[nodiscard]] bool is_everywhere() const { return bounds.empty() && no_go.empty(); }
 
   /// Throws std::invalid_argument as require_polygon does.

@@ -18,10 +18,10 @@ namespace incognita {
 
 /// How far a disc-shaped robot keeps away from what it measures.
 struct CollisionGuardParams {
-  double robot_radius_m = 0.2;
-  double margin_m = 0.03;        ///< beyond the radius
-  double creep_margin_m = 0.02;  ///< enough up to creep_speed, for doors hardly wider than the robot
-  double creep_speed_m_per_s = 0.1;
+  double robot_radius_m = 0.2;         ///< > 0
+  double margin_m = 0.03;              ///< beyond the radius
+  double creep_margin_m = 0.02;        ///< enough up to creep_speed, for doors hardly wider than the robot
+  double creep_speed_m_per_s = 0.1;    ///< slow enough for creep_margin_m
   double reaction_time_s = 0.15;       ///< from a scan to the moment at which the robot brakes
   double deceleration_m_per_s2 = 1.0;  ///< of the robot
   double speed_min_m_per_s = 0.02;     ///< slower than this is standing still

@@ -22,15 +22,15 @@ namespace incognita {
 
 /// What a robot can do and how it follows.
 struct FollowParams {
-  double speed_max_m_per_s = 1.0;
-  double turn_rate_max_rad_per_s = 1.0;
-  double deceleration_m_per_s2 = 1.0;  ///< how hard it brakes before corners and the end
-  double lookahead_m = 0.6;            ///< it aims at a place on the path this far ahead
-  double lookahead_min_m = 0.15;       ///< or nearer, down to this,
-  double deviation_max_m = 0.04;   ///< when the path or its own arc leaves the straight line there by more
-  double aside_max_m = 0.1;        ///< how far it leaves the path for the middle of a passage that the latest scan shows
-  double turn_in_place_rad = 0.6;  ///< it turns in place when the place lies further aside; < pi / 2
-  double goal_tolerance_m = 0.1;   ///< this near to its end the path is finished
+  double speed_max_m_per_s = 1.0;        ///< > 0
+  double turn_rate_max_rad_per_s = 1.0;  ///< > 0, either way
+  double deceleration_m_per_s2 = 1.0;    ///< how hard it brakes before corners and the end
+  double lookahead_m = 0.6;              ///< it aims at a place on the path this far ahead
+  double lookahead_min_m = 0.15;         ///< or nearer, down to this,
+  double deviation_max_m = 0.04;         ///< when the path or its own arc leaves the straight line there by more
+  double aside_max_m = 0.1;              ///< how far it leaves the path for the middle of a passage that the latest scan shows
+  double turn_in_place_rad = 0.6;        ///< it turns in place when the place lies further aside; < pi / 2
+  double goal_tolerance_m = 0.1;         ///< this near to its end the path is finished
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -76,12 +76,12 @@ class PathFollower {
     return command(T_map_robot, {near_hits_m(T_map_robot, scan, range_m), keep_m});
   }
 
-  [[nodiscard]] bool is_finished() const { return finished_; }
+  [[nodiscard]] bool is_finished() const { return finished_; }  ///< whether it is at the path's end
 
   /// How far along the path the robot has come; never decreases.
   [[nodiscard]] double progress_m() const { return progress_m_; }
 
-  [[nodiscard]] const Polyline& path() const { return path_; }
+  [[nodiscard]] const Polyline& path() const { return path_; }  ///< as given
 
  private:
   /// What is around the robot, in the path's frame, and how far its centre keeps from it.

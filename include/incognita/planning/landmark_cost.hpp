@@ -16,11 +16,12 @@ enum class LandmarkRule {
   last   ///< the last that is told of, as the paper does
 };
 
+/// The scale of (A.15).
 struct LandmarkCostParams {
-  double cell_m = 0.1;               ///< c, > 0
-  double process_sigma_m = 0.1;      ///< Q tilde = |Q|^(1 / 2N), > 0; the paper says 0.01 where its Q = 0.01 I has 0.1
-  double start_odometry_m = 0.0;     ///< what the robot has driven without landmarks before the start, >= 0
-  LandmarkRule rule = LandmarkRule::best;
+  double cell_m = 0.1;                     ///< c, > 0
+  double process_sigma_m = 0.1;            ///< Q tilde = |Q|^(1 / 2N), > 0; the paper says 0.01 where its Q = 0.01 I has 0.1
+  double start_odometry_m = 0.0;           ///< what the robot has driven without landmarks before the start, >= 0
+  LandmarkRule rule = LandmarkRule::best;  ///< of several in sight
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -36,10 +37,11 @@ struct LandmarkCostParams {
 template <class ForEachInSight>
 class LandmarkCost {
  public:
+  /// The terms of (A.15) at a place.
   struct State {
-    double length_cells = 0.0;
-    double odometry_cells = 0.0;
-    double landmark_sigma_m = 0.0;
+    double length_cells = 0.0;      ///< d, of the whole way
+    double odometry_cells = 0.0;    ///< d_odo, driven without a landmark since the last
+    double landmark_sigma_m = 0.0;  ///< sigma_l of that landmark, 0 before the first
   };
 
   /// Throws std::invalid_argument for bad parameters.
@@ -48,8 +50,9 @@ class LandmarkCost {
     params_.validate();
   }
 
-  [[nodiscard]] State start() const { return {0.0, params_.start_odometry_m / params_.cell_m, 0.0}; }
+  [[nodiscard]] State start() const { return {0.0, params_.start_odometry_m / params_.cell_m, 0.0}; }  ///< where the way begins
 
+  /// After a straight piece, with what is in sight at its end. Positions in the frame of the tree.
   [[nodiscard]] State extend(const State& state, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) const {
     const double edge_cells = distance(from_m, to_m) / params_.cell_m;
     State next{state.length_cells + edge_cells, state.odometry_cells + edge_cells, state.landmark_sigma_m};
@@ -62,6 +65,7 @@ class LandmarkCost {
     return next;
   }
 
+  /// C of (A.15), in cells.
   [[nodiscard]] double total(const State& state) const {
     return state.length_cells + state.odometry_cells + 2.0 * state.landmark_sigma_m / (params_.cell_m * params_.process_sigma_m);
   }

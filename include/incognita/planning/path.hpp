@@ -50,9 +50,9 @@ namespace incognita {
 }
 
 /// The path with fewer corners: straight wherever that keeps to passable cells and costs at most 1 +
-/// `slack` times what the path itself does. Its ends stay, and so do steps where the robot lacks clearance
-/// (see TravelCostField). Throws std::invalid_argument unless slack is finite and >= 0. O(corners x the
-/// longest straight part).
+/// `slack`, a fraction, times what the path itself does. Places are in the map's frame. Its ends stay, and
+/// so do steps where the robot lacks clearance (see TravelCostField). Throws std::invalid_argument unless
+/// slack is finite and >= 0. O(corners x the longest straight part).
 [[nodiscard]] inline std::vector<Eigen::Vector2d> shorten_path(const TravelCostField& field,
                                                                const std::vector<Eigen::Vector2d>& path_m,
                                                                double slack = 0.02) {

@@ -17,8 +17,9 @@ namespace incognita {
 /// distance from the start along the path.
 class Polyline {
  public:
-  Polyline() = default;
+  Polyline() = default;  ///< without a point
 
+  /// Through these points, in any frame; O(points).
   explicit Polyline(std::vector<Eigen::Vector2d> points_m) : points_m_(std::move(points_m)) {
     arc_m_.reserve(points_m_.size());
     for (std::size_t i = 0; i < points_m_.size(); ++i) {
@@ -26,9 +27,9 @@ class Polyline {
     }
   }
 
-  [[nodiscard]] bool empty() const { return points_m_.empty(); }
-  [[nodiscard]] const std::vector<Eigen::Vector2d>& points_m() const { return points_m_; }
-  [[nodiscard]] double length_m() const { return arc_m_.empty() ? 0.0 : arc_m_.back(); }
+  [[nodiscard]] bool empty() const { return points_m_.empty(); }  ///< whether it has no point
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& points_m() const { return points_m_; }  ///< as given
+  [[nodiscard]] double length_m() const { return arc_m_.empty() ? 0.0 : arc_m_.back(); }  ///< 0 with one point or none
 
   /// How far along the path its corner i lies.
   [[nodiscard]] double arc_m(std::size_t i) const { return arc_m_[i]; }

@@ -27,16 +27,19 @@ concept WayCost = requires(const Cost& cost, const typename Cost::State& state, 
 
 /// The length of a way, in metres.
 struct LengthCost {
+  /// What the length at a place depends on.
   struct State {
-    double length_m = 0.0;
+    double length_m = 0.0;  ///< driven so far
   };
-  [[nodiscard]] State start() const { return {}; }
+  [[nodiscard]] State start() const { return {}; }  ///< nothing driven
+  /// After a straight piece, in the frame of the tree.
   [[nodiscard]] State extend(const State& state, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m) const {
     return {state.length_m + distance(from_m, to_m)};
   }
-  [[nodiscard]] double total(const State& state) const { return state.length_m; }
+  [[nodiscard]] double total(const State& state) const { return state.length_m; }  ///< in metres
 };
 
+/// How a tree grows.
 struct RandomTreeParams {
   double step_m = 1.0;     ///< the longest edge of a new place, > 0
   double radius_m = 5.0;   ///< RRT*: how far parents are sought and children rewired, >= 0; with 0 the tree is an RRT
@@ -54,14 +57,15 @@ struct RandomTreeParams {
 template <WayCost Cost>
 class RandomTree {
  public:
-  using State = typename Cost::State;
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  using State = typename Cost::State;                                ///< of the cost
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);  ///< no node
 
+  /// A place of the tree.
   struct Node {
-    Eigen::Vector2d place_m;
-    std::size_t parent;  ///< `none` for the root, which is first
-    State state;
-    double cost;
+    Eigen::Vector2d place_m;  ///< in the frame of the box
+    std::size_t parent;       ///< `none` for the root, which is first
+    State state;              ///< of the cost there
+    double cost;              ///< cost.total(state), in the unit of the cost
   };
 
   /// Grows a tree from a root over a box. Each sample, uniform in the box, is taken a step towards it from the nearest place; with
@@ -102,7 +106,7 @@ class RandomTree {
     }
   }
 
-  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  ///< the root first, in the order of their samples
 
   /// The places from the root to a node.
   [[nodiscard]] std::vector<Eigen::Vector2d> way_to(std::size_t node) const {

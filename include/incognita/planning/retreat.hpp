@@ -21,13 +21,13 @@ namespace incognita {
 
 /// How a robot gets out of a tight place.
 struct RetreatParams {
-  double distance_m = 0.1;     ///< how far it goes
-  double speed_m_per_s = 0.1;
-  double turn_rate_rad_per_s = 0.5;
-  double aim_rad = 0.1;        ///< it drives once its heading is this near to the way out
-  double look_m = 0.5;         ///< ways that are free for this long are as good as each other
-  int headings = 36;           ///< how many ways are tried
-  int blocked_scans_max = 10;  ///< a way out is given up when it was blocked more often than this in a row
+  double distance_m = 0.1;           ///< how far it goes
+  double speed_m_per_s = 0.1;        ///< of driving
+  double turn_rate_rad_per_s = 0.5;  ///< of turning
+  double aim_rad = 0.1;              ///< it drives once its heading is this near to the way out
+  double look_m = 0.5;               ///< ways that are free for this long are as good as each other
+  int headings = 36;                 ///< how many ways are tried
+  int blocked_scans_max = 10;        ///< a way out is given up when it was blocked more often than this in a row
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {

@@ -28,8 +28,8 @@ namespace incognita {
 
 /// A place and how far it is from the nearest obstacle, or some upper bound when none is that near.
 struct RoomyPlace {
-  Eigen::Vector2d position_m;
-  double clearance_m;
+  Eigen::Vector2d position_m;  ///< in the frame of the obstacles
+  double clearance_m;          ///< to the nearest obstacle
 };
 
 /// How finely places are compared, and so how well they are known.
@@ -38,7 +38,7 @@ inline constexpr double room_step_m = 0.005;
 /// The place with the most clearance, of which enough_m is enough, up to reach_m to either side of `place_m`, across the
 /// direction `along`; the nearest of equals, so that a place with enough is left as it is. A cell's centre may lie half a
 /// passage aside of its middle where the passage is as narrow as the robot; the laser knows that middle to a centimetre.
-/// O(obstacles * reach_m / room_step_m).
+/// All in one frame. O(obstacles * reach_m / room_step_m).
 [[nodiscard]] inline RoomyPlace roomiest_aside(const Eigen::Vector2d& place_m, const Eigen::Vector2d& along,
                                                const std::vector<Eigen::Vector2d>& obstacles_m, double reach_m,
                                                double enough_m) {

@@ -52,8 +52,8 @@ struct SafeFollowParams {
   double turn_rate_per_rad = 2.0;        ///< kappa_omega, 1/s
   double progress_per_clearance = 1.0;   ///< kappa_sigma, 1/(m s)
   double progress_per_rest = 1.0;        ///< kappa_s, 1/s
-  double speed_max_m_per_s = 1.0;
-  double turn_rate_max_rad_per_s = 1.0;
+  double speed_max_m_per_s = 1.0;  ///< > 0
+  double turn_rate_max_rad_per_s = 1.0;  ///< > 0
   double goal_tolerance_m = 0.1;  ///< this near to its end the path is finished
   double hold_margin_m = 0.02;    ///< what a command held until the next may add to where the robot comes by, >= 0; a quarter of a cell at most is kept
 
@@ -99,7 +99,7 @@ class SafePathFollower {
 
   /// The speeds to drive with for duration_s from `pose`, in the control space as it is now known. The path's first place must
   /// be one that the robot can go to straight; it waits for ever at a place from where it would leave the control space.
-  /// O(cells around the robot and the place that it chases).
+  /// Throws std::invalid_argument unless the duration is finite and >= 0. O(cells around the robot and the place that it chases).
   [[nodiscard]] Twist2 command(const Pose2& pose, const CellSet& control, double duration_s) {
     require_non_negative("SafePathFollower::command", "duration_s", duration_s);
     if (is_finished_) return {};
@@ -112,7 +112,7 @@ class SafePathFollower {
     return drive_to(pose, goal_m(), params_);
   }
 
-  [[nodiscard]] bool is_finished() const { return is_finished_; }
+  [[nodiscard]] bool is_finished() const { return is_finished_; }  ///< whether it is at the path's end
 
   /// s in [0, 1], the share of the path's length that the place has come; never decreases.
   [[nodiscard]] double parameter() const { return parameter_; }
@@ -120,7 +120,7 @@ class SafePathFollower {
   /// p(s), the place that the robot chases: from here to plan anew, as it lies in the planning space. The path must not be empty.
   [[nodiscard]] Eigen::Vector2d goal_m() const { return path_.point_at(parameter_ * path_.length_m()); }
 
-  [[nodiscard]] const Polyline& path() const { return path_; }
+  [[nodiscard]] const Polyline& path() const { return path_; }  ///< as given
 
  private:
   /// (18c), for a time. In so short a time the place may not move further than half of the distance that is left, either: the

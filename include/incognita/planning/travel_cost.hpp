@@ -23,7 +23,7 @@ namespace incognita {
 /// Where a disc-shaped robot can travel and what it likes. Costs are in metres: a metre far from all walls
 /// costs 1.
 struct TravelParams {
-  double robot_radius_m = 0.2;
+  double robot_radius_m = 0.2;  ///< >= 0
   /// The robot's centre stays robot_radius_m + margin_m away from the centres of occupied cells. It is small
   /// on purpose: a larger one closes doors that the robot fits through, and the soft cost keeps it in the
   /// middle of them.
@@ -34,6 +34,7 @@ struct TravelParams {
   double escape_radius_m = 0.6;     ///< how far a robot may drive where it cannot be, to get to where it can
   double escape_cost_per_m = 20.0;  ///< of driving there, > 1 + clearance_weight
 
+  /// What no path's end lacks.
   [[nodiscard]] double clearance_hard_m() const { return robot_radius_m + margin_m; }
 
   /// With this much, but less than clearance_hard_m, a cell may be passed where there is no better way, though no path
@@ -147,6 +148,7 @@ class TravelCostField {
   /// What the way to a cell costs, in metres; infinity when there is none or the robot cannot stay there.
   [[nodiscard]] float cost_m(const Index<2>& index) const { return cost_m_.value(index); }
 
+  /// Whether a cell can be got to.
   [[nodiscard]] bool reaches(const Index<2>& index) const { return cost_m(index) < infinite; }
 
   /// Whether the robot has the clearance it needs in a cell.
@@ -178,8 +180,8 @@ class TravelCostField {
     return cells;
   }
 
-  [[nodiscard]] const Eigen::Vector2d& start_m() const { return start_m_; }
-  [[nodiscard]] const Lattice<2>& lattice() const { return cost_m_.lattice(); }
+  [[nodiscard]] const Eigen::Vector2d& start_m() const { return start_m_; }  ///< where all ways begin
+  [[nodiscard]] const Lattice<2>& lattice() const { return cost_m_.lattice(); }  ///< of the cells
 
  private:
   static constexpr float infinite = std::numeric_limits<float>::infinity();

@@ -20,10 +20,10 @@ enum class DistanceMeasure {
 
 /// How (11) is measured.
 struct VisitCostParams {
-  DistanceMeasure to_unknown = DistanceMeasure::euclidean;
-  DistanceMeasure to_collision = DistanceMeasure::euclidean;
-  double unknown_max_m = 2.0;    ///< alpha_max, > 0; visit_cost refuses more than 90 cells
-  double collision_max_m = 1.0;  ///< beta_max, > 0; likewise
+  DistanceMeasure to_unknown = DistanceMeasure::euclidean;    ///< uniform takes 1 for it
+  DistanceMeasure to_collision = DistanceMeasure::euclidean;  ///< likewise
+  double unknown_max_m = 2.0;                                 ///< alpha_max, > 0; visit_cost refuses more than 90 cells
+  double collision_max_m = 1.0;                               ///< beta_max, > 0; likewise
 
   /// Throws std::invalid_argument for values outside of their bounds.
   void validate() const {
@@ -46,7 +46,8 @@ template <int Dim>
 
 /// Table III's other distance to the unknown: the inverse of a cell's entropy, log_odds_of(offset) being what the belief says of
 /// a cell of `occupancy` and `entropy` a measure of log-odds in nats (EntropyTable). Cells free beyond doubt have hardly any
-/// entropy, so it is taken to be entropy_min_nats at least, > 0, which also bounds what a path pays for a detour.
+/// entropy, so it is taken to be entropy_min_nats at least, > 0, which also bounds what a path pays for a detour. Throws
+/// std::invalid_argument for another. O(cells).
 template <class LogOddsOf, class Entropy>
 [[nodiscard]] Grid<float, 2> inverse_entropy(const OccupancyGrid<2>& occupancy, LogOddsOf&& log_odds_of, const Entropy& entropy,
                                              double entropy_min_nats = 1e-3) {
@@ -76,7 +77,7 @@ template <int Dim>
   return cost;
 }
 
-/// (11) with the distance to the unknown that `params` name.
+/// (11) with the distance to the unknown that `params` name. Throws std::invalid_argument for bad parameters. O(cells).
 template <int Dim>
 [[nodiscard]] Grid<float, Dim> visit_cost(const OccupancyGrid<Dim>& occupancy, const Grid<std::uint8_t, Dim>& plan,
                                          const VisitCostParams& params = {}) {

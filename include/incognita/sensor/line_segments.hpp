@@ -16,14 +16,14 @@ namespace incognita {
 struct LineSegment {
   double angle_rad;      ///< of the line in the sensor's frame, in [-pi/2, pi/2]
   double variance_rad2;  ///< of that angle, from the noise of the ranges
-  double length_m;
+  double length_m;       ///< from its first end point to its last
 };
 
 /// What counts as straight.
 struct LineSegmentParams {
   double gap_max_m = 0.5;         ///< between neighbouring end points of a piece
   double deviation_max_m = 0.04;  ///< of an end point from the chord: four times the noise of a usual range
-  double length_min_m = 0.6;
+  double length_min_m = 0.6;      ///< shorter pieces are left out
   int points_min = 6;             ///< >= 5
   double noise_m = 0.01;          ///< of an end point, at least
 

@@ -23,16 +23,17 @@ struct RangeBearingNoise {
 
 /// A point in the pose's frame with its covariance.
 struct MeasuredPoint {
-  Eigen::Vector2d mean_m;
-  Eigen::Matrix2d covariance_m2;
+  Eigen::Vector2d mean_m;         ///< where it was measured
+  Eigen::Matrix2d covariance_m2;  ///< over (x, y), in the axes of the pose's frame
 };
 
 /// An element of the covariance of what is measured along one direction, as a polynomial of the range.
 struct MeasuredCovarianceElement {
-  double constant_m2;
-  double linear_m;
-  double quadratic;
+  double constant_m2;  ///< from the position
+  double linear_m;     ///< by metre: from position and heading together
+  double quadratic;    ///< by square metre: from heading and bearing, in rad^2
 
+  /// At a range.
   [[nodiscard]] double at_m2(double range_m) const { return constant_m2 + range_m * (linear_m + range_m * quadratic); }
 };
 

@@ -36,11 +36,12 @@ class ObstacleField {
     }
   }
 
-  [[nodiscard]] const Lattice<2>& lattice() const { return gaps_.lattice(); }
-  [[nodiscard]] double resolution_m() const { return gaps_.resolution_m(); }
+  [[nodiscard]] const Lattice<2>& lattice() const { return gaps_.lattice(); }  ///< of the grid that it was made from
+  [[nodiscard]] double resolution_m() const { return gaps_.resolution_m(); }  ///< the side of a cell
   /// The box of the grid that the field was made from.
   [[nodiscard]] const IndexBox<2>& box() const { return box_; }
 
+  /// Whether a cell blocks; all do beyond the box.
   [[nodiscard]] bool is_blocked(const Index<2>& cell) const { return gaps_.value(cell) == 0; }
 
   /// The range from a point to the first blocked cell's face: 0 in a blocked cell, range_max_m when nothing is met within it.

@@ -61,9 +61,9 @@ class ReliableVisibility {
     range_ = (params.range_max_m - params.tolerance_m) / occupancy.resolution_m();
   }
 
-  ReliableVisibility(const OccupancyGrid<2>&, CellBits&&, const VisibilityParams&) = delete;  // the bits must outlive it
+  ReliableVisibility(const OccupancyGrid<2>&, CellBits&&, const VisibilityParams&) = delete;  ///< the bits must outlive it
 
-  [[nodiscard]] const OccupancyGrid<2>& occupancy() const { return *occupancy_; }
+  [[nodiscard]] const OccupancyGrid<2>& occupancy() const { return *occupancy_; }  ///< by which it sees
 
   /// How far a cell may be seen, in cells.
   [[nodiscard]] double range_cells() const { return range_; }

@@ -19,7 +19,7 @@ template <int Dim>
 struct BeamPattern {
   std::vector<Point<Dim>> directions;  ///< unit vectors in the sensor's frame, one a beam
   double range_min_m = 0.0;            ///< shorter readings are ignored
-  double range_max_m = 10.0;
+  double range_max_m = 10.0;           ///< a reading of this much met nothing
 
   /// Throws std::invalid_argument unless 0 <= range_min_m < range_max_m, finite, and each direction has length 1
   /// within 1e-6.
@@ -34,7 +34,8 @@ struct BeamPattern {
   }
 };
 
-/// Beams in the plane, the first at first_rad from the sensor's x axis, counter-clockwise for increment_rad > 0.
+/// Beams in the plane, the first at first_rad from the sensor's x axis, counter-clockwise for increment_rad > 0. Throws
+/// std::invalid_argument for a range that is not finite and > 0 and for angles that are not finite.
 [[nodiscard]] inline BeamPattern<2> planar_beams(std::size_t count, double first_rad, double increment_rad,
                                                  double range_max_m) {
   BeamPattern<2> beams;
@@ -79,11 +80,12 @@ class Scan {
     ranges_m_ = std::move(ranges_m);
   }
 
-  [[nodiscard]] std::size_t size() const { return ranges_m_.size(); }
-  [[nodiscard]] double range_max_m() const { return beams_.range_max_m; }
+  [[nodiscard]] std::size_t size() const { return ranges_m_.size(); }  ///< the number of beams
+  [[nodiscard]] double range_max_m() const { return beams_.range_max_m; }  ///< what a beam reads that met nothing
+  /// Of length 1, in the sensor's frame.
   [[nodiscard]] const Point<Dim>& direction(std::size_t beam) const { return beams_.directions[beam]; }
-  [[nodiscard]] double range_m(std::size_t beam) const { return ranges_m_[beam]; }
-  void set_range_m(std::size_t beam, double range_m) { ranges_m_[beam] = range_m; }
+  [[nodiscard]] double range_m(std::size_t beam) const { return ranges_m_[beam]; }  ///< as read, whatever it is
+  void set_range_m(std::size_t beam, double range_m) { ranges_m_[beam] = range_m; }  ///< takes any number
 
   /// Whether the other scan comes from beams with the same directions and ranges. O(beams).
   [[nodiscard]] bool has_beams_of(const Scan& other) const {
@@ -97,6 +99,7 @@ class Scan {
     return true;
   }
 
+  /// What a beam's range means.
   [[nodiscard]] Reading reading(std::size_t beam) const {
     const double range_m = ranges_m_[beam];
     if (!(range_m > 0.0) || range_m < beams_.range_min_m || range_m > beams_.range_max_m) return Reading::invalid;

@@ -16,8 +16,8 @@ namespace incognita {
 
 /// The LiDAR of Seo et al., section VI-B: 10 m.
 struct RangeSensorParams {
-  BeamPattern<2> beams = circular_beams(360, 10.0);
-  double range_sigma_m = 0.01;  ///< standard deviation, >= 0; on hits only
+  BeamPattern<2> beams = circular_beams(360, 10.0);  ///< in the sensor's frame
+  double range_sigma_m = 0.01;                       ///< standard deviation, >= 0; on hits only
 };
 
 /// Holds one scan and fills it anew.
@@ -49,7 +49,7 @@ class RangeSensor {
     return scan_;
   }
 
-  [[nodiscard]] const Scan<2>& scan() const { return scan_; }
+  [[nodiscard]] const Scan<2>& scan() const { return scan_; }  ///< the last one measured
 
  private:
   double range_sigma_m_;

@@ -37,8 +37,8 @@ class Robot {
     check_start(world, T_world_robot.position(), params.radius_m);
   }
 
-  [[nodiscard]] const RobotParams& params() const { return params_; }
-  [[nodiscard]] const Pose2& T_world_robot() const { return T_world_robot_; }
+  [[nodiscard]] const RobotParams& params() const { return params_; }  ///< as given
+  [[nodiscard]] const Pose2& T_world_robot() const { return T_world_robot_; }  ///< the true pose
   /// The length of the way so far.
   [[nodiscard]] double distance_m() const { return distance_m_; }
   /// How often it ran into something. Staying there and pushing on is the same collision until the robot has

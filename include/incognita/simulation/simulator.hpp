@@ -18,8 +18,8 @@ namespace incognita {
 
 /// Odometry at 50 Hz and a scan every fifth step, as in Seo et al., section VI-B.
 struct SimulatorParams {
-  RobotParams robot;
-  OdometryParams odometry;
+  RobotParams robot;         ///< its body and its limits
+  OdometryParams odometry;   ///< its noise
   RangeSensorParams sensor;  ///< on the robot's centre, its frame the robot's
   int steps_per_s = 50;      ///< >= 1
   int steps_per_scan = 5;    ///< >= 1
@@ -58,19 +58,19 @@ class Simulator {
 
   /// The last scan, and whether it was taken at this very step (or at the start) rather than an earlier one.
   [[nodiscard]] const Scan<2>& scan() const { return sensor_.scan(); }
-  [[nodiscard]] bool scan_is_new() const { return steps_ % static_cast<std::size_t>(steps_per_scan_) == 0; }
+  [[nodiscard]] bool scan_is_new() const { return steps_ % static_cast<std::size_t>(steps_per_scan_) == 0; }  ///< whether this step took it
 
-  [[nodiscard]] std::size_t steps() const { return steps_; }
+  [[nodiscard]] std::size_t steps() const { return steps_; }  ///< so far
   /// Computed from the number of steps, so it does not drift.
   [[nodiscard]] double time_s() const { return static_cast<double>(steps_) / steps_per_s_; }
-  [[nodiscard]] double distance_m() const { return robot_.distance_m(); }
-  [[nodiscard]] std::size_t collisions() const { return robot_.collisions(); }
+  [[nodiscard]] double distance_m() const { return robot_.distance_m(); }  ///< driven, forwards and backwards
+  [[nodiscard]] std::size_t collisions() const { return robot_.collisions(); }  ///< how often the robot ran into something, see Robot
 
-  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] const World& world() const { return world_; }  ///< the building
   /// The building in the robot's start frame: what metrics call T_belief_world when the belief starts at
   /// identity.
   [[nodiscard]] const Pose2& T_start_world() const { return T_start_world_; }
-  [[nodiscard]] const Pose2& T_world_robot() const { return robot_.T_world_robot(); }
+  [[nodiscard]] const Pose2& T_world_robot() const { return robot_.T_world_robot(); }  ///< the true pose
   /// The true pose as an estimator would have it, which starts at identity.
   [[nodiscard]] Pose2 T_start_robot() const { return T_start_world_ * robot_.T_world_robot(); }
 

@@ -13,11 +13,12 @@ namespace incognita {
 /// is solid. Immutable: safe from many threads.
 class World : public ObstacleField {
  public:
+  /// All but floor blocks. O(cells).
   explicit World(FloorPlan plan)
       : ObstacleField(plan, [](FloorCell cell) { return cell != FloorCell::floor; }),
         plan_(std::move(plan)) {}
 
-  [[nodiscard]] const FloorPlan& plan() const { return plan_; }
+  [[nodiscard]] const FloorPlan& plan() const { return plan_; }  ///< as given
 
  private:
   FloorPlan plan_;

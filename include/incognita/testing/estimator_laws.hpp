@@ -45,16 +45,19 @@ namespace estimator_laws {
   return solver.eigenvalues().minCoeff() >= -1e-9 * larger.cwiseAbs().maxCoeff();
 }
 
+/// To the bit.
 [[nodiscard]] inline bool is_equal(const PoseBelief& a, const PoseBelief& b) {
   return a.pose.x_m == b.pose.x_m && a.pose.y_m == b.pose.y_m && a.pose.yaw_rad == b.pose.yaw_rad &&
          a.covariance == b.covariance;
 }
 
+/// Within 1e-9 m and 1e-9 rad.
 [[nodiscard]] inline bool is_near(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm() <= 1e-9 &&
          std::abs(angle_between_rad(a.yaw_rad, b.yaw_rad)) <= 1e-9;
 }
 
+/// Whether the pose is finite, and the covariance one.
 [[nodiscard]] inline bool is_sound(const PoseBelief& belief) {
   return belief.pose.is_finite() && is_covariance(belief.covariance);
 }
@@ -62,11 +65,12 @@ namespace estimator_laws {
 /// A filter and its map in an empty room, driven by seeded odometry with errors.
 template <class Filter>
 struct Drive {
-  Filter filter;
-  Map<> map{};
-  Pose2 T_start_robot{};
-  Random random{1};
+  Filter filter;          ///< that is driven
+  Map<> map{};            ///< that the filter reads
+  Pose2 T_start_robot{};  ///< the true pose
+  Random random{1};       ///< of the odometry's errors
 
+  /// A motion in the robot's own frame, within 0.1 s, and a scan.
   void scan_once(const Pose2& increment) {
     T_start_robot = T_start_robot * increment;
     const Pose2 measured{increment.x_m + random.normal(0.0, 0.005), increment.y_m,

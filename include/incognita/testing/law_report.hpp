@@ -10,7 +10,7 @@ namespace incognita {
 
 /// The laws that a value broke, one sentence each. A plain value.
 struct LawReport {
-  std::vector<std::string> violations;
+  std::vector<std::string> violations;  ///< in the order in which they were found
 
   /// True when no law was broken.
   [[nodiscard]] bool holds() const { return violations.empty(); }

@@ -27,30 +27,33 @@ class BasicDispersion {
  public:
   static constexpr bool once_a_scan = true;  ///< see OncePolicy
 
+  /// What is tolerated, what the sensor is like, and what occupancy a scan adds.
   struct Params {
     /// The tolerated standard deviation along each axis: what is explored against what is revisited. More than an eighth of the box's
     /// side or so: a view does not tell smaller ones apart.
     double sigma_max_m = 1.0;
-    double box_side_m = 0.1;    ///< s_1 = s_2 of (11), > 0
-    double kappa = 0.5;         ///< of (15), in [0, 1]
-    RangeBearingNoise noise;    ///< of the sensor
-    double hit = 0.85;          ///< added to the occupancy's log-odds by a hit, in [1/512, 31]
-    double pass = -0.4;         ///< by a pass, in [-31, -1/512]
+    double box_side_m = 0.1;      ///< s_1 = s_2 of (11), > 0
+    double kappa = 0.5;           ///< of (15), in [0, 1]
+    RangeBearingNoise noise;      ///< of the sensor
+    double hit = 0.85;            ///< added to the occupancy's log-odds by a hit, in [1/512, 31]
+    double pass = -0.4;           ///< to the log-odds by a pass, in [-31, -1/512]
     double log_odds_min = -10.0;  ///< in [-31, -1/512]
     double log_odds_max = 10.0;   ///< in [1/512, 31]
   };
 
-  static constexpr int occupancy_zero = 1 << 14;
+  static constexpr int occupancy_zero = 1 << 14;  ///< what log-odds 0 of occupancy is stored as
 
+  /// What a cell remembers, in 8 bytes.
   struct State {
-    float dispersion_log_odds = 0.0F;  // where it is explored
-    ScanStamp seen_by = 0;             // the last scan that updated the cell
-    std::uint16_t occupancy : 15 = occupancy_zero;  // in steps
-    bool is_explored : 1 = false;
+    float dispersion_log_odds = 0.0F;               ///< where it is explored
+    ScanStamp seen_by = 0;                          ///< the last scan that updated the cell
+    std::uint16_t occupancy : 15 = occupancy_zero;  ///< in steps of 1/512 of log-odds, from occupancy_zero
+    bool is_explored : 1 = false;                   ///< whether a scan ever saw it
   };
 
-  using Beam = typename View::Beam;
+  using Beam = typename View::Beam;  ///< the log-odds along a beam, by range
 
+  /// With the default parameters.
   BasicDispersion() : BasicDispersion(Params{}) {}
 
   /// Throws std::invalid_argument for parameters outside of the bounds stated with them.
@@ -80,7 +83,7 @@ class BasicDispersion {
             "between an eighth of box_side_m and a thousand times it, or so");
   }
 
-  [[nodiscard]] const Params& params() const { return params_; }
+  [[nodiscard]] const Params& params() const { return params_; }  ///< as given
 
   /// The dispersion probability of what is just tolerated (Appendix A.2): that of a cell that was never seen.
   [[nodiscard]] double beta() const { return beta_; }
@@ -106,6 +109,7 @@ class BasicDispersion {
     update(state, hit_, beam.log_odds_at(beam.range_m), stamp);
   }
 
+  /// The point lies residual_m before the beam's end.
   void pass(State& state, const Beam& beam, float residual_m, ScanStamp stamp) const {
     update(state, pass_, beam.log_odds_at(beam.range_m - residual_m), stamp);
   }
@@ -113,6 +117,7 @@ class BasicDispersion {
   /// No cell is known so well that no scan could know it better.
   [[nodiscard]] bool ignores_passes(const State& /*state*/) const { return false; }
 
+  /// Nothing but the stamp changes.
   void forget_stamp(State& state) const { state.seen_by = 0; }
 
   /// Of occupancy.
@@ -125,6 +130,7 @@ class BasicDispersion {
     return state.is_explored ? state.dispersion_log_odds : beta_log_odds_;
   }
 
+  /// The probability of the same.
   [[nodiscard]] double dispersion_probability(const State& state) const {
     return 1.0 / (1.0 + std::exp(-static_cast<double>(dispersion_log_odds(state))));
   }
@@ -152,6 +158,7 @@ class BasicDispersion {
   double beta_ = 0.0;
 };
 
+/// The cell as scans of the plane write it.
 using Dispersion = BasicDispersion<DispersionView>;
 
 }  // namespace incognita

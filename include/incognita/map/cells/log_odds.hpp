@@ -13,21 +13,24 @@ namespace incognita {
 /// Seo et al., section VI-B. It does not look at the residual or at the pose's variance.
 class LogOdds {
  public:
+  /// What scans add, in log-odds, and where cells stop.
   struct Params {
-    float hit = 0.85F;           ///< added by a hit, > 0 (p = 0.7)
-    float pass = -0.4F;          ///< added by a pass, < 0 (p = 0.4)
-    float log_odds_min = -10.0F; ///< < 0
-    float log_odds_max = 10.0F;  ///< > 0
-    bool hits_win = true;        ///< passes of a scan leave alone what the same scan hit
+    float hit = 0.85F;            ///< added to the log-odds by a hit, > 0 (p = 0.7)
+    float pass = -0.4F;           ///< added to the log-odds by a pass, < 0 (p = 0.4)
+    float log_odds_min = -10.0F;  ///< < 0
+    float log_odds_max = 10.0F;   ///< > 0
+    bool hits_win = true;         ///< passes of a scan leave alone what the same scan hit
   };
 
+  /// What a cell remembers, in 8 bytes.
   struct State {
-    float log_odds = 0.0F;
-    ScanStamp hit_by = 0;  ///< the last scan that hit the cell
+    float log_odds = 0.0F;  ///< natural; 0 is unknown
+    ScanStamp hit_by = 0;   ///< the last scan that hit the cell
   };
 
-  struct Beam {};
+  struct Beam {};  ///< nothing: all beams are equal
 
+  /// With the default parameters.
   LogOdds() : LogOdds(Params{}) {}
 
   /// Throws std::invalid_argument for parameters outside of the bounds stated with them.
@@ -41,15 +44,18 @@ class LogOdds {
     finite_require(params.log_odds_max > 0.0F, "log_odds_max", params.log_odds_max, "finite and > 0");
   }
 
-  [[nodiscard]] const Params& params() const { return params_; }
+  [[nodiscard]] const Params& params() const { return params_; }  ///< as given
 
+  /// The variance does not matter.
   [[nodiscard]] Beam beam(double /*variance_m2*/) const { return {}; }
 
+  /// Adds Params::hit, up to log_odds_max.
   void hit(State& state, const Beam& /*beam*/, float /*residual_m*/, ScanStamp stamp) const {
     state.hit_by = stamp;
     add(state, params_.hit);
   }
 
+  /// Adds Params::pass, down to log_odds_min, unless this scan hit the cell and hits win.
   void pass(State& state, const Beam& /*beam*/, float /*residual_m*/, ScanStamp stamp) const {
     if (params_.hits_win && state.hit_by == stamp) return;
     add(state, params_.pass);
@@ -58,9 +64,10 @@ class LogOdds {
   /// Free beyond doubt.
   [[nodiscard]] bool ignores_passes(const State& state) const { return state.log_odds <= params_.log_odds_min; }
 
+  /// Nothing but the stamp changes.
   void forget_stamp(State& state) const { state.hit_by = 0; }
 
-  [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }
+  [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }  ///< as stored
 
  private:
   void add(State& state, float increment) const {

@@ -24,17 +24,22 @@ namespace incognita {
 /// a scan, unless the scan also hit it or the surface is near; what falls below 0 starts again with N = 0.
 class TBayes {
  public:
-  enum class Rule { robust, literal };
+  /// What a pass does to a cell: the repaired rule, or the printed one.
+  enum class Rule {
+    robust,  ///< passes lower cells, and free saturated ones slowly
+    literal  ///< (15) as printed
+  };
 
+  /// The sensor's likelihood, and where cells stop.
   struct Params {
-    Rule rule = Rule::robust;
-    DvlVariances dvl;
+    Rule rule = Rule::robust;            ///< of passes
+    DvlVariances dvl;                    ///< R_o and R_u
     int hits_max = 3;                    ///< N_max, 1 to 255
     float log_odds_min = -20.0F;         ///< < 0
     float log_odds_max = 6.0F;           ///< > 0
     float erosion_log_odds = 0.4F;       ///< robust: what a scan through a saturated cell takes, >= 0
     double erosion_residual_m = 0.6;     ///< robust: erosion only where the beam goes on for longer, >= 0 ...
-    double erosion_residual_sigmas = 3;  ///< ... and for longer than this many sigmas of the pose along the beam
+    double erosion_residual_sigmas = 3;  ///< ... and for longer than this many standard deviations of the pose along the beam
   };
 
   /// The paper's equation alone: no bounds, no erosion.
@@ -46,19 +51,23 @@ class TBayes {
     return params;
   }
 
+  /// What a cell remembers, in 8 bytes.
   struct State {
-    float log_odds = 0.0F;
+    float log_odds = 0.0F;     ///< natural; 0 is unknown
     ScanStamp settled_by = 0;  ///< the last scan that hit or eroded the cell
     std::uint8_t hits = 0;     ///< N_a of (14)
   };
 
   /// ln N(r; 0, S) = offset - r^2 precision_half, for the two occupancies of the cell.
   struct Beam {
-    float occupied_offset, occupied_half_precision;
-    float unoccupied_offset, unoccupied_half_precision;
-    float erosion_residual2_m2;  // squared
+    float occupied_offset,          ///< S with R_o, without a unit
+        occupied_half_precision;    ///< in 1/m^2
+    float unoccupied_offset,        ///< S with R_u, without a unit
+        unoccupied_half_precision;  ///< in 1/m^2
+    float erosion_residual2_m2;     ///< passes nearer than its root do not erode
   };
 
+  /// With the default parameters.
   TBayes() : TBayes(Params{}) {}
 
   /// Throws std::invalid_argument for parameters outside of the bounds stated with them.
@@ -79,8 +88,9 @@ class TBayes {
     per_hit_ = 1.0F / static_cast<float>(params.hits_max);
   }
 
-  [[nodiscard]] const Params& params() const { return params_; }
+  [[nodiscard]] const Params& params() const { return params_; }  ///< as given
 
+  /// What is constant along a beam at a pose with this variance along it.
   [[nodiscard]] Beam beam(double variance_m2) const {
     const double occupied_m2 = variance_m2 + params_.dvl.occupied_m2;
     const double unoccupied_m2 = variance_m2 + params_.dvl.unoccupied_m2;
@@ -133,9 +143,10 @@ class TBayes {
     return 1e-4F + 1.0001F * std::sqrt(to_fall / beam.occupied_half_precision);
   }
 
+  /// Nothing but the stamp changes.
   void forget_stamp(State& state) const { state.settled_by = 0; }
 
-  [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }
+  [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }  ///< as stored
 
  private:
   [[nodiscard]] float increment(const State& state, const Beam& beam, float residual_m) const {
