@@ -42,6 +42,12 @@ struct BasicPose3 {
 
 using Pose3 = BasicPose3<double>;
 
+/// "(x, y, z) turned by (qx, qy, qz, qw)" in metres, for messages.
+template <class Scalar>
+[[nodiscard]] std::string tuple_text(const BasicPose3<Scalar>& pose) {
+  return tuple_text(pose.position_m) + " turned by " + tuple_text(pose.orientation.coeffs());
+}
+
 template <>
 struct PoseOf<3> {
   using Type = Pose3;
