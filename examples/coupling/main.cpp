@@ -2,13 +2,11 @@
 /// pose's covariance grows out of known surroundings, and candidate paths ranked by their Behavioral
 /// information gain.
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,6 +18,7 @@
 #include "coupling/update_strength.hpp"
 #include "incognita/entropy/behavioral.hpp"
 #include "support/output_folder.hpp"
+#include "support/program.hpp"
 
 namespace {
 
@@ -115,26 +114,8 @@ int main(int argc, char** argv) {
   app.add_option("--alpha", alpha, "Behavioral entropy's alpha, > 0; 1 is Shannon")
       ->type_name("A")
       ->capture_default_str();
-  std::optional<incognita::Behavioral> entropy;
-  try {
+  return examples::run_program("coupling", app, [&] {
     app.parse(argc, argv);
-    entropy.emplace(alpha);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    std::cerr << "coupling: " << error.what() << '\n';
-    return 2;
-  } catch (const std::invalid_argument& error) {
-    std::cerr << "coupling: " << error.what() << '\n';
-    return 2;
-  }
-  try {
-    run(*entropy, folder);
-  } catch (const examples::OutputError& error) {
-    std::cerr << "coupling: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "coupling: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+    run(incognita::Behavioral(alpha), folder);
+  });
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -16,6 +15,7 @@
 #include "incognita/entropy.hpp"
 #include "support/chart.hpp"
 #include "support/output_folder.hpp"
+#include "support/program.hpp"
 
 namespace {
 
@@ -122,21 +122,8 @@ int main(int argc, char** argv) {
   app.add_option("--output", folder, "folder for the charts (PNG) and their numbers (CSV)")
       ->type_name("DIR")
       ->capture_default_str();
-  try {
+  return examples::run_program("entropy_curves", app, [&] {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    std::cerr << "entropy_curves: " << error.what() << '\n';
-    return 2;
-  }
-  try {
     draw(folder);
-  } catch (const examples::OutputError& error) {
-    std::cerr << "entropy_curves: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "entropy_curves: " << error.what() << '\n';
-    return 1;
-  }
-  return 0;
+  });
 }

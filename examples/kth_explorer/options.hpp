@@ -56,12 +56,15 @@ struct Options {
   Options options;
   std::string start;
   std::string bounds;
+  app.option_defaults()->group("Input");
   app.add_option("--map", options.map_file, "floor plan; without it, the embedded office floor of 55 x 25 m")
       ->type_name("FILE.yaml|FILE.xml")
       ->check(examples::refuse_empty);
+  app.option_defaults()->group("Belief");
   app.add_option("--cells", options.cells, "how a cell of the belief is updated")
       ->check(CLI::IsMember({"tbayes", "log-odds", "dispersion"}))
       ->capture_default_str();
+  app.option_defaults()->group("Decision");
   app.add_option("--frontiers", options.frontiers,
                  "what is gone to: where known floor ends, or also where the uncertainty of what was seen leaps (with --cells\n"
                  "dispersion and --information uniform, size or entropy)")
@@ -73,6 +76,7 @@ struct Options {
   app.add_option("--alpha", options.alpha, "parameter of the entropy (q of tsallis; shannon has none), > 0")
       ->type_name("A")
       ->capture_default_str();
+  app.option_defaults()->group("Filter");
   app.add_option("--filter", options.filter, "how the pose is estimated; none: odometry has no noise, so that the pose is known")
       ->check(CLI::IsMember({"dvl-ekf", "dead-reckoning", "none"}))
       ->capture_default_str();
@@ -82,6 +86,7 @@ struct Options {
   app.add_option("--loops", options.loops, "whether the map is put right when the robot returns to where it was")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
+  app.option_defaults()->group("Decision");
   app.add_option("--strategy", options.strategy,
                  "plan anew at a viewpoint, as soon as it is no longer informative, or every second if enough was learned")
       ->check(CLI::IsMember(examples::names_of<incognita::Strategy>()))
@@ -94,6 +99,7 @@ struct Options {
   app.add_option("--navigation", options.navigation, "what that is divided by: nothing, the straight line, or the cost of the way")
       ->check(CLI::IsMember(examples::names_of<incognita::NavigationCost>()))
       ->capture_default_str();
+  app.option_defaults()->group("Mission");
   app.add_option("--duration", options.duration_s, "longest exploration, in simulated seconds, > 0; the way back comes after it")
       ->type_name("S")
       ->capture_default_str();
@@ -101,12 +107,15 @@ struct Options {
       ->type_name("N")
       ->check(refuse_bad_seed)
       ->capture_default_str();
+  app.option_defaults()->group("Input");
   app.add_option("--start", start, "start in the map file's frame, in metres; without it, a seeded place in the largest region")
       ->type_name("X,Y")
       ->check(examples::refuse_empty);
+  app.option_defaults()->group("Mission");
   app.add_option("--radius", options.robot_radius_m, "of the robot, in metres, in (0, 5]: what it cannot reach is not gone to")
       ->type_name("M")
       ->capture_default_str();
+  app.option_defaults()->group("Input");
   app.add_option("--bounds", bounds, "box in the map file's frame, in metres, that the robot stays in and explores")
       ->type_name("X0,Y0,X1,Y1")
       ->check(examples::refuse_empty);
@@ -114,10 +123,13 @@ struct Options {
                  "polygons in the map file's frame that it keeps out of: a line each, as 0,0 4,0 4,2.5")
       ->type_name("FILE")
       ->check(examples::refuse_empty);
+  app.option_defaults()->group("Mission");
   app.add_flag("--return", options.returns, "drive back to the start in the end");
+  app.option_defaults()->group("Belief");
   app.add_option("--resolution", options.resolution_m, "side of a cell of the belief, in metres, 0.02 to 1")
       ->type_name("M")
       ->capture_default_str();
+  app.option_defaults()->group("Output");
   app.add_option("--threads", options.threads, "threads for the evaluation of candidates; 0: as many as OpenMP takes")
       ->type_name("N")
       ->check(CLI::Range(0, 1024))

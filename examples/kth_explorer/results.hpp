@@ -65,9 +65,11 @@ class CsvText {
 
 [[nodiscard]] inline nlohmann::ordered_json metrics_json(const MissionRecord& record, const Options& options) {
   nlohmann::ordered_json json;
+  // Parameters come before duration_s, results from there on: by this order plot tells what runs differ in.
   json["map"] = options.map_file.empty() ? "embedded" : std::filesystem::path(options.map_file).filename().string();
   json["seed"] = options.seed;
   json["cells"] = options.cells;
+  json["frontiers"] = options.frontiers;
   json["entropy"] = options.entropy;
   json["alpha"] = options.entropy == "shannon" ? nlohmann::ordered_json() : nlohmann::ordered_json(options.alpha);
   json["filter"] = options.filter;

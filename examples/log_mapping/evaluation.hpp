@@ -51,7 +51,9 @@ struct ReferenceError {
     ours.push_back(timed.pose);
     theirs.push_back(known.poses[*match]);
   }
-  if (ours.size() < 2) throw InputError(file, "has fewer than two scans at the times of the log");
+  if (ours.size() < 2) {
+    throw InputError(file, "has " + std::to_string(ours.size()) + " scans at the times of the log, but must have 2 or more");
+  }
   const Pose2 T_map_reference = align_rigidly(theirs, ours);
   for (Pose2& pose : theirs) pose = T_map_reference * pose;
   ReferenceError error;

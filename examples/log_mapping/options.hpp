@@ -39,6 +39,7 @@ struct Options {
   std::optional<double> no_return_m;
   std::optional<double> usable_range_m;
   std::string no_return_is = "invalid";
+  app.option_defaults()->group("Input");
   app.add_option("--log", options.log_file,
                  "scans with odometry: JSON by time, or CARMEN (FLASER, ROBOTLASER1)")
       ->type_name("FILE.json|FILE.log")
@@ -52,6 +53,7 @@ struct Options {
                  "true relations between poses, lines of t1 t2 x y z roll pitch yaw (s, m, rad)")
       ->type_name("FILE.txt")
       ->check(examples::refuse_empty);
+  app.option_defaults()->group("Belief");
   app.add_option("--frame-angle-deg", frame_angle_deg,
                  "heading at the start in the map's frame, in degrees: turns the walls against the cells")
       ->type_name("A")
@@ -59,12 +61,14 @@ struct Options {
   app.add_option("--resolution", options.resolution_m, "side of a cell of the belief, in metres, 0.02 to 1")
       ->type_name("M")
       ->capture_default_str();
+  app.option_defaults()->group("Filter");
   app.add_option("--compass", options.compass, "whether headings are taken from walls that stand at right angles")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   app.add_option("--loops", options.loops, "whether the map is put right when the robot returns to where it was")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
+  app.option_defaults()->group("Readings");
   app.add_option("--beams", beams,
                  "angle of the first reading and step to the next, in degrees, counter-clockwise; without it "
                  "as the log "
@@ -91,6 +95,7 @@ struct Options {
                  "usable range)")
       ->check(CLI::IsMember({"invalid", "clear"}))
       ->capture_default_str();
+  app.option_defaults()->group("Output");
   app.add_option("--output", options.output, "folder for the results")
       ->type_name("DIR")
       ->capture_default_str();

@@ -21,7 +21,7 @@ namespace examples {
 /// The options of programs that run many trials: how many side by side, where results go, and whether anything is printed. `trials` is
 /// what trials are called.
 inline void add_trial_options(CLI::App& app, const std::string& trials, int& threads, std::string& output, bool& quiet) {
-  app.add_option("--threads", threads, "how many " + trials + " run side by side; 0: as many as OpenMP takes")
+  app.add_option("--threads", threads, "how many " + trials + " run side by side, up to 1024; 0: as many as OpenMP takes")
       ->type_name("N")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

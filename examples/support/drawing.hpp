@@ -49,7 +49,7 @@ class Drawing {
   /// The map of `world_m` with its longer side `side_px` long. Throws std::invalid_argument for an empty
   /// world.
   explicit Drawing(const incognita::Box<Point>& world_m, int side_px = 1600) : world_m_(world_m) {
-    if (world_m.empty()) throw std::invalid_argument("Drawing: the world is empty");
+    if (world_m.empty()) incognita::throw_invalid("Drawing", "the world", incognita::box_text(world_m), "a box with an area");
     px_per_m_ = side_px / world_m.extent().maxCoeff();
     const Point map_px = (world_m.extent() * px_per_m_).array().ceil();
     width_px_ = std::max(map_px.x() + 2.0 * margin_px, width_min_px);

@@ -18,10 +18,10 @@
 #include "incognita/map/dispersion_probability.hpp"
 #include "incognita/map/uncertainty_map.hpp"
 #include "incognita/sensor/measured_point.hpp"
+#include "support/box_plot.hpp"
 #include "support/chart.hpp"
 #include "support/drawing.hpp"
 #include "uncertainty_frontiers/experiments.hpp"
-#include "uncertainty_frontiers/statistics.hpp"
 
 namespace uncertainty_frontiers {
 
@@ -130,19 +130,7 @@ inline void draw_box_plots(const std::filesystem::path& path, const std::vector<
     }
     std::vector<double> values;
     for (const Trial& trial : all[i].trials) values.push_back(trial.siren_nats_m2[judge]);
-    const Box box = box_of(values);
-    const double x = 1.0 + static_cast<double>(i % planning_systems.size());
-    constexpr double half = 0.25;
-    auto& series = panels.back().series;
-    const auto line = [&](std::vector<double> xs, std::vector<double> ys, double width) {
-      series.push_back({.x = std::move(xs), .y = std::move(ys), .color = "#1f77b4", .width = width});
-    };
-    line({x - half, x + half, x + half, x - half, x - half},
-         {box.lower_quartile, box.lower_quartile, box.upper_quartile, box.upper_quartile, box.lower_quartile}, 2.0);
-    line({x - half, x + half}, {box.median, box.median}, 4.0);
-    line({x, x}, {box.lower_quartile, box.least}, 1.5);
-    line({x, x}, {box.upper_quartile, box.greatest}, 1.5);
-    series.push_back({.x = std::vector<double>(values.size(), x), .y = values, .color = "#d62728", .stroke = examples::Stroke::points});
+    examples::add_box(panels.back(), 1.0 + static_cast<double>(i % planning_systems.size()), values, "#1f77b4", "#d62728");
   }
   // One scale for all.
   double least = std::numeric_limits<double>::infinity();

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "support/csv.hpp"
+#include "support/statistics.hpp"
 #include "uncertainty_frontiers/experiments.hpp"
-#include "uncertainty_frontiers/statistics.hpp"
 
 namespace uncertainty_frontiers {
 
@@ -67,9 +67,9 @@ inline void print_hall(const std::vector<Series>& all) {
       explored_m2.push_back(trial.explored_m2);
       distance_m.push_back(trial.distance_m);
     }
-    const Box box = box_of(siren);
+    const examples::Spread box = examples::spread_of(siren);
     std::printf("  %-16s %s %7.0f [%.0f %.0f] %6.0f %5.0f\n", series.layout().c_str(), series.setting.system.name, box.median,
-                box.lower_quartile, box.upper_quartile, median(explored_m2), median(distance_m));
+                box.lower_quartile, box.upper_quartile, examples::median(explored_m2), examples::median(distance_m));
   }
   struct Factor {
     const char* name;
@@ -100,7 +100,7 @@ inline void print_hall(const std::vector<Series>& all) {
       uncertainty_m.push_back(trial.uncertainty_m);
     }
   }
-  const Line line = fitted_line(sigma_m, uncertainty_m);
+  const examples::Line line = examples::fitted_line(sigma_m, uncertainty_m);
   std::printf("(23): U = %.3f sigma %+.4f m, correlation %.2f, over %zu maps of PPS3 and PPS4\n", line.slope, line.offset, line.correlation,
               sigma_m.size());
 }

@@ -11,8 +11,8 @@
 
 #include "incognita/entropy/signed_relative_entropy.hpp"
 #include "incognita/map/uncertainty_map.hpp"
+#include "support/statistics.hpp"
 #include "uncertainty_frontiers/planning_system.hpp"
-#include "uncertainty_frontiers/statistics.hpp"
 
 namespace uncertainty_frontiers {
 
@@ -92,13 +92,13 @@ inline constexpr double same_place_m = 0.75;
   const Belief& map = robot.map(own);
   std::vector<double> uncertainties_m = explored_uncertainties_m(map);
   trial.explored_m2 = static_cast<double>(uncertainties_m.size()) * map.resolution_m() * map.resolution_m();
-  trial.uncertainty_m = median(std::move(uncertainties_m));
+  trial.uncertainty_m = examples::median(std::move(uncertainties_m));
   std::vector<double> landmark_sigmas_m;
   for (std::size_t i = 0; i < robot.slam().landmarks().size(); ++i) {
     landmark_sigmas_m.push_back(incognita::mean_sigma(robot.slam().landmark_covariance_m2(i)));
     trial.landmarks_m.push_back(robot.landmark_m(i));
   }
-  trial.landmark_sigma_m = median(std::move(landmark_sigmas_m));
+  trial.landmark_sigma_m = examples::median(std::move(landmark_sigmas_m));
   trial.position_error_m = (robot.position_m() - robot.truth_m()).norm();
   trial.distance_m = robot.distance_m();
   trial.path_m = robot.path_m();

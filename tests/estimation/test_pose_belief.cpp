@@ -99,9 +99,10 @@ TEST_CASE("Noise and beliefs that are none are refused", "[estimation]") {
   PoseBelief belief;
   REQUIRE_NOTHROW(require_belief("Here", belief));
   belief.pose.yaw_rad = kNan;
-  REQUIRE_THROWS_WITH(require_belief("Here", belief), "Here: the start pose is not finite");
+  REQUIRE_THROWS_WITH(require_belief("Here", belief), "Here: the start pose is (0, 0, nan), but must be finite");
   belief.pose.yaw_rad = 0.0;
   belief.covariance(1, 1) = -1.0;
   REQUIRE_THROWS_WITH(require_belief("Here", belief),
-                      "Here: the start covariance is not finite, symmetric and positive semi-definite");
+                      "Here: the start covariance is [0, 0, 0; 0, -1, 0; 0, 0, 0], but must be finite, symmetric and positive "
+                      "semi-definite");
 }

@@ -34,11 +34,12 @@ run_quietly() {
   [ -s stdout ] || [ -s stderr ] && fail "$name: --quiet prints"
 }
 
-# help_names OPTIONS...: --help prints to stdout alone and names each option.
+# help_names OPTIONS...: --help prints to stdout alone, in lines of at most 80 columns, and names each option.
 help_names() {
-  local help option
+  local help option wide
   help=$("$program" --help 2>stderr) || fail "--help: exit code $?"
   [ -s stderr ] && fail "--help: something on stderr"
+  wide=$(grep -E '.{81}' <<<"$help") && fail "--help is wider than 80 columns: $wide"
   for option in "$@"; do
     grep -q -- "--$option\b" <<<"$help" || fail "--help does not name --$option"
   done

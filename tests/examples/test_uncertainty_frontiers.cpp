@@ -6,7 +6,6 @@
 
 #include "incognita/core/random.hpp"
 #include "uncertainty_frontiers/experiments.hpp"
-#include "uncertainty_frontiers/statistics.hpp"
 
 namespace uncertainty_frontiers {
 namespace {
@@ -46,22 +45,6 @@ TEST_CASE("By uncertainty frontiers the hall is explored, and the same again", "
   const Trial again = run_trial(setting, 1);
   CHECK(again.siren_nats_m2[1] == trial.siren_nats_m2[1]);
   CHECK(again.path_m == trial.path_m);
-}
-
-TEST_CASE("Quartiles and lines as one would draw them", "[uncertainty_frontiers]") {
-  const Box box = box_of({5.0, 1.0, 3.0, 2.0, 4.0});
-  CHECK(box.least == 1.0);
-  CHECK(box.lower_quartile == 2.0);
-  CHECK(box.median == 3.0);
-  CHECK(box.upper_quartile == 4.0);
-  CHECK(box.greatest == 5.0);
-  CHECK(box_of({1.0, 2.0}).median == 1.5);
-  CHECK(median({4.0, 1.0, 2.0, 3.0}) == 2.5);
-  CHECK(median({}) == 0.0);
-  const Line line = fitted_line({0.0, 1.0, 2.0, 3.0}, {1.0, 3.0, 5.0, 7.0});
-  CHECK(line.slope == Approx(2.0));
-  CHECK(line.offset == Approx(1.0));
-  CHECK(line.correlation == Approx(1.0));
 }
 
 }  // namespace

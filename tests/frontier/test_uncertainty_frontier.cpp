@@ -136,5 +136,6 @@ TEST_CASE("Uncertainty frontiers refuse bad parameters", "[frontier]") {
   REQUIRE_THROWS_WITH(detect_uncertainty_frontier(uncertainty_m, 1.0, free, params), Contains("obstacle_distance_min_m is -1"));
   REQUIRE_THROWS_WITH(detect_uncertainty_frontier(uncertainty_m, 0.0, free, {}), Contains("tolerated_m is 0"));
   const OccupancyGrid<2> other(Lattice<2>(0.1), {{0, 0}, {4, 3}}, Occupancy::free);
-  REQUIRE_THROWS_WITH(detect_uncertainty_frontier(uncertainty_m, 1.0, other, {}), Contains("another box"));
+  REQUIRE_THROWS_WITH(detect_uncertainty_frontier(uncertainty_m, 1.0, other, {}),
+                      Contains("the box of occupancy is") && Contains("that of uncertainty_m"));
 }

@@ -95,6 +95,10 @@ TEST_CASE("A pose with a number that is not finite says so", "[geometry]") {
   REQUIRE(Pose3{}.is_finite());
   REQUIRE_FALSE(Pose3{Eigen::Vector3d(0.0, nan, 0.0), Eigen::Quaterniond::Identity()}.is_finite());
   REQUIRE_FALSE(Pose3{Eigen::Vector3d::Zero(), Eigen::Quaterniond(1.0, 0.0, nan, 0.0)}.is_finite());
+  REQUIRE_THROWS_WITH(require_finite_pose("here", "it", Pose2{nan, 0.5, 3.0}), "here: it is (nan, 0.5, 3), but must be finite");
+  REQUIRE_THROWS_WITH(require_finite_pose("here", "it", Pose3{Eigen::Vector3d(0.0, nan, 2.0), Eigen::Quaterniond::Identity()}),
+                      "here: it is (0, nan, 2) turned by (0, 0, 0, 1), but must be finite");
+  REQUIRE_NOTHROW(require_finite_pose("here", "it", Pose2{}));
 }
 
 TEST_CASE("Covariances are finite, symmetric and without negative eigenvalues", "[geometry]") {

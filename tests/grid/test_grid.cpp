@@ -87,6 +87,7 @@ TEST_CASE("Outside of its box a grid reads its fill value and refuses to be writ
   Grid<int, 2> grid(Lattice<2>(1.0), {Index<2>(0, 0), Index<2>(2, 2)}, 4);
   REQUIRE(grid.value({-1, 0}) == 4);
   REQUIRE_THROWS_AS(grid.set({2, 0}, 1), std::out_of_range);
+  REQUIRE_THROWS_WITH(grid.set({2, 0}, 1), Catch::Contains("the index is (2, 0), but must lie in the grid's box, (0, 0) to "));
   Grid<int, 2> empty(Lattice<2>(1.0), {}, 3);
   REQUIRE(empty.size() == 0);
   REQUIRE(empty.value({0, 0}) == 3);

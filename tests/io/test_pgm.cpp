@@ -84,17 +84,17 @@ TEST_CASE("PGM: bad headers and values are refused with their cause") {
   CHECK_THAT(decode_refusal("P5 65536 65536 255\n"), Contains("65536 x 65536 pixels"));
   CHECK_THAT(decode_refusal("P5 8192 8192 255\nabc"), Contains("need at least 67108864 bytes, but 3 follow"));
   CHECK_THAT(decode_refusal("P2 8192 8192 255\n1 2"), Contains("need at least"));
-  CHECK_THAT(decode_refusal("P5 99999999999999999999 1 255\nx"), Contains("the width is more than"));
+  CHECK_THAT(decode_refusal("P5 99999999999999999999 1 255\nx"), Contains("the width is \"99999999999999999999\", but must be at most"));
   CHECK_THAT(decode_refusal("P5 0 1 255\nx"), Contains("0 x 1 pixels"));
-  CHECK_THAT(decode_refusal("P5 -1 1 255\nx"), Contains("the width is not a number"));
-  CHECK_THAT(decode_refusal("P5 1 1.5 255\nx"), Contains("the height is not a number"));
+  CHECK_THAT(decode_refusal("P5 -1 1 255\nx"), Contains("the width is \"-1\", but must be a whole number"));
+  CHECK_THAT(decode_refusal("P5 1 1.5 255\nx"), Contains("the height is \"1.5\", but must be a whole number"));
   CHECK_THAT(decode_refusal("P5 1 1 0\nx"), Contains("the largest grey value is 0"));
-  CHECK_THAT(decode_refusal("P5 1 1 65536\nx"), Contains("the largest grey value is more than 65535"));
-  CHECK_THAT(decode_refusal("P5 1 1 255#c\nx"), Contains("white space must follow"));
+  CHECK_THAT(decode_refusal("P5 1 1 65536\nx"), Contains("the largest grey value is \"65536\", but must be at most 65535"));
+  CHECK_THAT(decode_refusal("P5 1 1 255#c\nx"), Contains("white space must follow the largest grey value, not \"#\""));
   CHECK_THAT(decode_refusal("P5 1 1 99\nx"), Contains("a pixel is 120, but must be at most 99"));
   CHECK_THAT(decode_refusal("P2 1 1 99 100"), Contains("a pixel is 100, but must be at most 99"));
-  CHECK_THAT(decode_refusal("P2 2 1 99 1 x"), Contains("a pixel is not a number"));
-  CHECK_THAT(decode_refusal("P6 1 1 255\nxyz"), Contains("must start with P2 or P5"));
+  CHECK_THAT(decode_refusal("P2 2 1 99 1 x"), Contains("a pixel is \"x\", but must be a whole number"));
+  CHECK_THAT(decode_refusal("P6 1 1 255\nxyz"), Contains("it starts with \"P6\", but must start with P2 or P5"));
   CHECK_THAT(decode_refusal(""), Contains("must start with P2 or P5"));
   CHECK_THAT(refusal([] { return encode_pgm(Image{1, 1, 2, {1, 2}}, "x"); }), Contains("has 2 channels"));
 }

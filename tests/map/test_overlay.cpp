@@ -175,6 +175,7 @@ TEST_CASE("An overlay refuses a predicted scan that reaches out of the map's box
   for (const double yaw_rad : {0.0, 0.5 * std::numbers::pi}) {
     const Pose2 outward{corner.x(), corner.y(), yaw_rad};
     REQUIRE_THROWS_AS(overlay.update(east, outward, Eigen::Matrix3d::Zero()), std::length_error);
+    REQUIRE_THROWS_WITH(overlay.update(east, outward, Eigen::Matrix3d::Zero()), Catch::Contains("of the map, " + box_text(box)));
   }
   REQUIRE(changed_cells(overlay).empty());
   REQUIRE_NOTHROW(overlay.update(east, {corner.x() - 1.5, corner.y(), 0.0}, Eigen::Matrix3d::Zero()));

@@ -100,7 +100,7 @@ TEST_CASE("relations error: what does not fit is refused") {
   const std::vector<double> falling_s{1.0, 0.0};
   const std::vector<Pose2> poses(2);
   CHECK_THROWS_WITH(relations_error(std::vector<double>{0.0}, poses, {}),
-                    "relations_error: 1 times for 2 poses");
+                    "relations_error: 1 times for 2 poses, but must be as many");
   CHECK_THROWS_AS(relations_error(falling_s, poses, {}), std::invalid_argument);
   CHECK_THROWS_AS(relations_error(std::vector<double>{0.0, 1.0}, poses, {}, -1.0), std::invalid_argument);
 }

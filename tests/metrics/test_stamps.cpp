@@ -33,5 +33,5 @@ TEST_CASE("stamps: the nearest, as by looking at all") {
 TEST_CASE("stamps: times that fall are refused") {
   CHECK_NOTHROW(require_ascending("x", std::vector<double>{1.0, 1.0, 2.0}));
   CHECK_THROWS_WITH(require_ascending("x", std::vector<double>{2.0, 1.0}),
-                    "x: times_s is not in ascending order");
+                    "x: times_s[1] is 1, but must be in ascending order, >= 2.000000 before it");
 }

@@ -309,9 +309,9 @@ TEST_CASE("The unknown is never entered, and from outside of the box nothing is 
 TEST_CASE("A field refuses what makes no sense", "[planning]") {
   const OccupancyGrid<2> belief = draw({"...", "..."}, 0.1);
   const Grid<float, 2> clearance_m = clearance_of(belief);
-  REQUIRE_THROWS_WITH(TravelCostField(belief, clearance_m, {std::nan(""), 0.0}), Catch::Contains("start_m"));
+  REQUIRE_THROWS_WITH(TravelCostField(belief, clearance_m, {std::nan(""), 0.0}), Catch::Contains("start_m is (nan, 0), but must be finite"));
   REQUIRE_THROWS_WITH(TravelCostField(belief, Grid<float, 2>(Lattice<2>(0.1)), {0.0, 0.0}),
-                      Catch::Contains("boxes"));
+                      Catch::Contains("the box of clearance_m is (0, 0) to (0, 0), but must be that of occupancy"));
   const auto refused = [&](auto change, const char* message) {
     TravelParams params;
     change(params);

@@ -103,7 +103,7 @@ TEST_CASE("A bad beam pattern is refused with its field and value", "[sensor]") 
 }
 
 TEST_CASE("A scan has as many ranges as beams", "[sensor]") {
-  REQUIRE_THROWS_WITH(Scan<2>(circular_beams(4, 10.0), {1.0, 2.0, 3.0}), "Scan: 3 ranges for 4 beams");
+  REQUIRE_THROWS_WITH(Scan<2>(circular_beams(4, 10.0), {1.0, 2.0, 3.0}), "Scan: 3 ranges for 4 beams, but must be as many");
   REQUIRE_THROWS_AS(Scan<2>(circular_beams(0, 10.0), {1.0}), std::invalid_argument);
   REQUIRE(Scan<2>(circular_beams(0, 10.0), {}).size() == 0);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,23 @@ namespace incognita {
   std::ostringstream message;
   message << where << ": " << field << " is " << value << ", but must be " << bound;
   throw std::invalid_argument(message.str());
+}
+
+/// The same of a value that is no number, as text.
+[[noreturn]] inline void throw_invalid(std::string_view where, std::string_view field, std::string_view value, std::string_view bound) {
+  std::ostringstream message;
+  message << where << ": " << field << " is " << value << ", but must be " << bound;
+  throw std::invalid_argument(message.str());
+}
+
+/// "(1, 2)", of a point, an index or an array, for messages.
+template <class Values>
+[[nodiscard]] std::string tuple_text(const Values& values) {
+  std::ostringstream text;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(values.size()); ++i) {
+    text << (i == 0 ? "(" : ", ") << values[static_cast<decltype(values.size())>(i)];
+  }
+  return text.str() + ')';
 }
 
 /// Throws as throw_invalid does unless `holds`; the value may be of any unit. NaN fails every comparison, so write the condition that

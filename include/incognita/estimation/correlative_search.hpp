@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,6 +20,7 @@
 #include "incognita/estimation/pose_belief.hpp"
 #include "incognita/estimation/search_lattice.hpp"
 #include "incognita/estimation/surface_map.hpp"
+#include "incognita/geometry/pose.hpp"
 #include "incognita/sensor/scan.hpp"
 
 namespace incognita {
@@ -125,7 +125,7 @@ class CorrelativeSearch {
                                              const Pose2& center, const Eigen::Matrix3d* covariance,
                                              const SearchWindow& window) {
     window.validate();
-    if (!center.is_finite()) throw std::invalid_argument("CorrelativeSearch: the center is not finite");
+    require_finite_pose("CorrelativeSearch", "the center", center);
     candidates_.clear();
     taken_.clear();
     const double longest_m = collect_hits(scan);

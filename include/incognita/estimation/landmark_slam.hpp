@@ -8,6 +8,7 @@
 #include <span>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "incognita/core/error.hpp"
@@ -91,7 +92,10 @@ class LandmarkSlam {
   [[nodiscard]] Eigen::Index size() const { return Dim * (1 + static_cast<Eigen::Index>(landmarks_.size())); }
 
   [[nodiscard]] Eigen::Index start_of(std::size_t index) const {
-    if (index >= landmarks_.size()) throw std::out_of_range("LandmarkSlam: there are fewer landmarks than that");
+    if (index >= landmarks_.size()) {
+      throw std::out_of_range("LandmarkSlam: the landmark's index is " + std::to_string(index) + ", but must be less than " +
+                              std::to_string(landmarks_.size()) + ", the number of landmarks");
+    }
     return Dim * (1 + static_cast<Eigen::Index>(index));
   }
 

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include <Eigen/Core>
 
@@ -30,11 +28,8 @@ struct PoseBelief {
 
 /// Throws std::invalid_argument unless the pose is finite and the covariance is one.
 inline void require_belief(const char* where, const PoseBelief& belief) {
-  if (!belief.pose.is_finite()) throw std::invalid_argument(std::string(where) + ": the start pose is not finite");
-  if (!is_covariance(belief.covariance)) {
-    throw std::invalid_argument(std::string(where) +
-                                ": the start covariance is not finite, symmetric and positive semi-definite");
-  }
+  require_finite_pose(where, "the start pose", belief.pose);
+  require_covariance(where, "the start covariance", belief.covariance);
 }
 
 /// The standard deviation of the position along its worst direction, in metres.
@@ -65,7 +60,7 @@ struct MotionNoise {
 
 /// Throws std::invalid_argument unless the increment is finite and the duration finite and >= 0.
 inline void require_motion(const char* where, const Pose2& increment, double duration_s) {
-  if (!increment.is_finite()) throw std::invalid_argument(std::string(where) + ": the increment is not finite");
+  require_finite_pose(where, "the increment", increment);
   require_non_negative(where, "duration_s", duration_s);
 }
 

@@ -74,7 +74,7 @@ class Explorer {
         reached_(slam_.map().grid().box()) {
     params_.validate();
     if (params_.uncertainty && !DispersionPolicy<Cell>) {
-      throw std::invalid_argument("Explorer: uncertainty needs a map whose cells know their dispersion");
+      throw std::invalid_argument("Explorer: uncertainty is set, but needs a map whose cells know their dispersion");
     }
     static_cast<void>(visibility());  // refuses a range that cells as large as the map's leave nothing of
     rebuild_layers();

@@ -64,7 +64,7 @@ struct ExplorerParams {
     if (uncertainty) {
       uncertainty->validate();
       if (is_of_path(information)) {
-        throw std::invalid_argument("ExplorerParams: uncertainty needs information other than big and log_big");
+        throw std::invalid_argument("ExplorerParams: information is one of paths, but uncertainty needs information other than big and log_big");
       }
     }
     require_non_negative("ExplorerParams", "travel_offset_m", travel_offset_m);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "incognita/frontier/frontier.hpp"
@@ -38,9 +37,7 @@ template <class Real>
                                                                 const UncertaintyFrontierParams& params = {}) {
   params.validate();
   require_positive("detect_uncertainty_frontier", "tolerated_m", tolerated_m);
-  if (occupancy.box() != uncertainty_m.box()) {
-    throw std::invalid_argument("detect_uncertainty_frontier: the occupancy has another box than the uncertainty");
-  }
+  require_equal_boxes("detect_uncertainty_frontier", "occupancy", occupancy.box(), "uncertainty_m", uncertainty_m.box());
   const auto limit_m = static_cast<Real>(tolerated_m);
   const auto clipped_m = [&](int x, int y) {
     const Index<2> cell(x, y);

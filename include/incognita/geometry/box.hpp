@@ -1,8 +1,12 @@
 /// Axis-aligned boxes, half open: a box holds its lower corner and not its upper one.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include <Eigen/Core>
 
+#include "incognita/core/error.hpp"
 #include "incognita/geometry/vector.hpp"
 
 namespace incognita {
@@ -74,6 +78,20 @@ template <class Vector>
   both.stretch_to(b.lower);
   both.stretch_to(b.upper);
   return both;
+}
+
+/// "(0, 0) to (4, 2)", for messages.
+template <class Vector>
+[[nodiscard]] std::string box_text(const Box<Vector>& box) {
+  return tuple_text(box.lower) + " to " + tuple_text(box.upper);
+}
+
+/// Throws std::invalid_argument, with both boxes, unless that of `field` is that of `other`.
+template <class Vector>
+void require_equal_boxes(std::string_view where, std::string_view field, const Box<Vector>& box, std::string_view other,
+                         const Box<Vector>& other_box) {
+  if (box == other_box) return;
+  throw_invalid(where, "the box of " + std::string(field), box_text(box), "that of " + std::string(other) + ", " + box_text(other_box));
 }
 
 }  // namespace incognita

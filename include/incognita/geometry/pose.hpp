@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string_view>
 
 #include <Eigen/Core>
 
+#include "incognita/core/error.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/vector.hpp"
 
@@ -53,6 +56,25 @@ template <class Matrix>
     }
   }
   return true;
+}
+
+/// Throws std::invalid_argument, with the matrix, unless it is a covariance.
+template <class Matrix>
+void require_covariance(std::string_view where, std::string_view field, const Matrix& matrix) {
+  if (is_covariance(matrix)) return;
+  std::ostringstream text;
+  for (int row = 0; row < Matrix::RowsAtCompileTime; ++row) {
+    for (int column = 0; column < Matrix::RowsAtCompileTime; ++column) {
+      text << (column > 0 ? ", " : row > 0 ? "; " : "[") << matrix(row, column);
+    }
+  }
+  throw_invalid(where, field, text.str() + ']', "finite, symmetric and positive semi-definite");
+}
+
+/// Throws std::invalid_argument, with the pose, unless it is finite.
+template <class PoseType>
+void require_finite_pose(std::string_view where, std::string_view field, const PoseType& pose) {
+  if (!pose.is_finite()) throw_invalid(where, field, tuple_text(pose), "finite");
 }
 
 }  // namespace incognita

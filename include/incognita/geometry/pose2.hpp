@@ -1,11 +1,14 @@
 /// Poses in the plane, SE(2).
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <string>
 
 #include <Eigen/Core>
 
 #include "incognita/core/angles.hpp"
+#include "incognita/core/error.hpp"
 
 namespace incognita {
 
@@ -59,5 +62,8 @@ struct Pose2 {
     return std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(yaw_rad);
   }
 };
+
+/// "(x, y, yaw)" in metres and radians, for messages.
+[[nodiscard]] inline std::string tuple_text(const Pose2& pose) { return tuple_text(std::array{pose.x_m, pose.y_m, pose.yaw_rad}); }
 
 }  // namespace incognita

@@ -46,6 +46,12 @@ struct BasicPose3 {
 /// What maps in space are told of a sensor's place.
 using Pose3 = BasicPose3<double>;
 
+/// "(x, y, z) turned by (qx, qy, qz, qw)" in metres, for messages.
+template <class Scalar>
+[[nodiscard]] std::string tuple_text(const BasicPose3<Scalar>& pose) {
+  return tuple_text(pose.position_m) + " turned by " + tuple_text(pose.orientation.coeffs());
+}
+
 /// Space.
 template <>
 struct PoseOf<3> {

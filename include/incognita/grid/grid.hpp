@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "incognita/core/error.hpp"
+#include "incognita/geometry/box.hpp"
 #include "incognita/grid/lattice.hpp"
 
 namespace incognita {
@@ -74,7 +76,9 @@ class Grid {
 
   /// Sets a cell of the box; throws std::out_of_range outside of it.
   void set(const Index<Dim>& index, const Value& value) {
-    if (!contains(index)) throw std::out_of_range("Grid::set: the index lies outside of the grid's box");
+    if (!contains(index)) {
+      throw std::out_of_range("Grid::set: the index is " + tuple_text(index) + ", but must lie in the grid's box, " + box_text(box_));
+    }
     (*this)[offset_of(index)] = value;
   }
 
@@ -117,7 +121,7 @@ class Grid {
   [[nodiscard]] static std::int64_t checked_count(const IndexBox<Dim>& box) {
     const std::int64_t count = cell_count(box);
     if (count > cell_count_max) {
-      throw std::length_error("Grid: a box of more than " + std::to_string(cell_count_max) + " cells");
+      throw std::length_error("Grid: the box is " + box_text(box) + ", but must have at most " + std::to_string(cell_count_max) + " cells");
     }
     return count;
   }

@@ -17,7 +17,7 @@ namespace incognita {
   const std::string content = read_file(file, image_file_size_max_bytes);
   if (is_png(content)) return decode_png(content, file);
   if (is_pgm(content)) return decode_pgm(content, file);
-  throw InputError(file, "is neither a PNG nor a PGM image");
+  throw InputError(file, "is neither a PNG nor a PGM image: its " + std::to_string(content.size()) + " bytes must start as one does");
 }
 
 }  // namespace incognita

@@ -62,8 +62,10 @@ class MapFields {
     constexpr double far_m = 1e7;
     const YAML::Node node = root_["origin"];
     if (!node) throw InputError(file_, "origin is missing");
-    if (!node.IsSequence() || node.size() != 3)
-      throw InputError(file_, "origin must be three numbers [x, y, yaw]");
+    if (!node.IsSequence() || node.size() != 3) {
+      const std::string found = node.IsSequence() ? "has " + std::to_string(node.size()) + " values" : "is no sequence";
+      throw InputError(file_, "origin " + found + ", but must be three numbers [x, y, yaw]");
+    }
     std::array<double, 3> values{};
     for (std::size_t i = 0; i < 3; ++i) {
       values[i] = number(scalar(node[i], "origin"), "origin", -far_m, far_m);
@@ -85,7 +87,10 @@ class MapFields {
 
  private:
   [[nodiscard]] std::string scalar(const YAML::Node& node, const char* name) const {
-    if (!node.IsScalar()) throw InputError(file_, std::string(name) + " must be a single value");
+    if (!node.IsScalar()) {
+      throw InputError(file_, std::string(name) + (node.IsSequence() ? " is a sequence" : " is a mapping or empty") +
+                                  ", but must be a single value");
+    }
     return node.Scalar();
   }
 
@@ -129,7 +134,7 @@ class MapFields {
     }
     metadata.mode = mode == "trinary" ? MapMode::trinary : mode == "scale" ? MapMode::scale : MapMode::raw;
     const std::string image = fields.text("image");
-    if (image.empty() || image.find('\0') != std::string::npos) throw InputError(file, "image names no file");
+    if (image.empty() || image.find('\0') != std::string::npos) throw InputError(file, "image is " + shown(image) + ", but must name a file");
     metadata.image = file.parent_path() / image;
     return metadata;
   } catch (const YAML::Exception& error) {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <stdexcept>
 
+#include "incognita/core/error.hpp"
 #include "incognita/grid/floor_plan.hpp"
 #include "incognita/grid/grid.hpp"
 #include "incognita/io/atomic_file.hpp"
@@ -118,7 +118,7 @@ template <class Value, class ProbabilityOf>
 void write_map_server(const std::filesystem::path& yaml_file, const Grid<Value, 2>& grid,
                       ProbabilityOf&& probability_of, MapMode mode = MapMode::trinary,
                       MapImage format = MapImage::png) {
-  if (grid.box().empty()) throw std::invalid_argument("write_map_server: the grid has no cells");
+  require(!grid.box().empty(), "write_map_server", "the number of cells", 0.0, ">= 1");
   const Index<2> extent = grid.box().extent();
   require_image_size(yaml_file, extent.x(), extent.y());
 
@@ -142,9 +142,7 @@ void write_map_server(const std::filesystem::path& yaml_file, const Grid<Value, 
     for (int column = 0; column < extent.x(); ++column, ++offset) {
       const auto p = static_cast<double>(probability_of(grid[offset]));
       const bool unknown = std::isnan(p);
-      if (!unknown && !(p >= 0.0 && p <= 1.0)) {
-        throw std::invalid_argument("write_map_server: a probability lies outside of 0..1");
-      }
+      require(unknown || (p >= 0.0 && p <= 1.0), "write_map_server", "a probability", p, "in 0..1, or NaN where it is unknown");
       double grey = 0.0;
       if (mode == MapMode::trinary) {
         grey = p > metadata.occupied_thresh ? 0.0 : p < metadata.free_thresh ? 254.0 : 205.0;
@@ -152,7 +150,7 @@ void write_map_server(const std::filesystem::path& yaml_file, const Grid<Value, 
         grey = unknown ? 255.0 : 100.0 * p;
       } else {
         if (unknown && channels == 1) {
-          throw std::invalid_argument("write_map_server: unknown cells in scale mode need PNG");
+          throw_invalid("write_map_server", "the format", "PGM", "PNG for unknown cells in scale mode");
         }
         grey = unknown ? 0.0 : 255.0 * (1.0 - p);
       }

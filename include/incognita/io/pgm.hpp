@@ -1,6 +1,7 @@
 /// PGM images: P5 (binary) and P2 (plain), the grey images of the netpbm family.
 #pragma once
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
@@ -29,18 +30,17 @@ class PgmReader {
     skip_space_and_comments();
     if (unread_.empty())
       throw InputError(file_, std::string("not a valid PGM: the file ends before ") + what);
+    const auto fail = [&](const std::string& bound) {
+      const std::size_t length = std::min(unread_.find_first_of(" \t\n\v\f\r#"), unread_.size());
+      throw InputError(file_, std::string("not a valid PGM: ") + what + " is " + shown(unread_.substr(0, length)) + ", but must be " + bound);
+    };
     std::int64_t value = 0;
     std::size_t digits = 0;
     for (; digits < unread_.size() && unread_[digits] >= '0' && unread_[digits] <= '9'; ++digits) {
       value = value * 10 + (unread_[digits] - '0');
-      if (value > value_max) {
-        throw InputError(
-            file_, std::string("not a valid PGM: ") + what + " is more than " + std::to_string(value_max));
-      }
+      if (value > value_max) fail("at most " + std::to_string(value_max));
     }
-    if (digits == 0 || (digits < unread_.size() && !is_space(unread_[digits]) && unread_[digits] != '#')) {
-      throw InputError(file_, std::string("not a valid PGM: ") + what + " is not a number");
-    }
+    if (digits == 0 || (digits < unread_.size() && !is_space(unread_[digits]) && unread_[digits] != '#')) fail("a whole number");
     unread_.remove_prefix(digits);
     return static_cast<int>(value);
   }
@@ -48,7 +48,7 @@ class PgmReader {
   /// What follows the one white-space character that ends the header.
   [[nodiscard]] std::string_view after_header() const {
     if (unread_.empty() || !is_space(unread_[0])) {
-      throw InputError(file_, "not a valid PGM: white space must follow the largest grey value");
+      throw InputError(file_, "not a valid PGM: white space must follow the largest grey value, not " + shown(unread_.substr(0, 1)));
     }
     return unread_.substr(1);
   }
@@ -88,7 +88,7 @@ class PgmReader {
 /// 255. `file` is only named in errors. Throws InputError when it is malformed, truncated or too large
 /// (before memory is asked for).
 [[nodiscard]] inline Image decode_pgm(std::string_view content, const std::filesystem::path& file) {
-  if (!is_pgm(content)) throw InputError(file, "not a valid PGM: it must start with P2 or P5");
+  if (!is_pgm(content)) throw InputError(file, "not a valid PGM: it starts with " + shown(content.substr(0, 2)) + ", but must start with P2 or P5");
   detail::PgmReader reader(content.substr(2), file);
   constexpr int any = std::numeric_limits<int>::max();
   const int width_px = reader.number("the width", any);

@@ -8,14 +8,15 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "incognita/core/error.hpp"
+#include "incognita/geometry/pose.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/io/input_error.hpp"
+#include "incognita/io/number.hpp"
 #include "incognita/sensor/scan.hpp"
 
 namespace incognita {
@@ -60,9 +61,7 @@ struct RobotLogParams {
       require(std::isfinite(beams->increment_rad), "RobotLogParams", "beams.increment_rad",
               beams->increment_rad, "finite");
     }
-    if (T_robot_laser && !T_robot_laser->is_finite()) {
-      throw std::invalid_argument("RobotLogParams: T_robot_laser is not finite");
-    }
+    if (T_robot_laser) require_finite_pose("RobotLogParams", "T_robot_laser", *T_robot_laser);
     if (no_return_m) require_positive("RobotLogParams", "no_return_m", *no_return_m);
     if (usable_m) require_positive("RobotLogParams", "usable_m", *usable_m);
   }
@@ -174,7 +173,8 @@ namespace detail {
   }
   if (params.usable_m) log.limits.usable_m = *params.usable_m;
   if (!(log.limits.usable_m > 0.0)) {
-    throw InputError(file, "not one reading is finite, > 0 and less than the code for no return");
+    throw InputError(file, "not one reading is finite, > 0 and less than the code for no return, " +
+                               format_number(log.limits.no_return_m) + " m");
   }
   for (LogScan& scan : scans) {
     for (double& range_m : scan.ranges_m) {

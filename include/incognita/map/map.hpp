@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "incognita/core/error.hpp"
 #include "incognita/geometry/pose.hpp"
 #include "incognita/grid/grid.hpp"
 #include "incognita/map/cell_layers.hpp"
@@ -91,10 +92,8 @@ class Map {
   /// std::length_error for a pose out of the lattice's reach; the map is then unchanged. O(cells passed), amortised.
   ScanReport update(const Scan<Dim>& scan, const Pose<Dim>& T_map_sensor,
                     const typename Pose<Dim>::Covariance& covariance) {
-    if (!T_map_sensor.is_finite()) throw std::invalid_argument("Map::update: the pose is not finite");
-    if (!is_covariance(covariance)) {
-      throw std::invalid_argument("Map::update: the covariance is not finite, symmetric and positive semi-definite");
-    }
+    require_finite_pose("Map::update", "the pose", T_map_sensor);
+    require_covariance("Map::update", "the covariance", covariance);
     require_reach(T_map_sensor.position(), scan.range_max_m() + hit_push_m());
     beams_.take(cell_, lattice(), scan, T_map_sensor, covariance, hit_push_m());
     grow_to_include(beams_.reach());
@@ -113,7 +112,8 @@ class Map {
   void require_reach(const Point<Dim>& point_m, double margin_m) const {
     const double reach_m = resolution_m() * static_cast<double>(std::numeric_limits<int>::max() / 2);
     if (!(point_m.array().abs() + margin_m < reach_m).all()) {
-      throw std::length_error("Map: a point lies beyond " + std::to_string(reach_m) + " m from the map's origin");
+      throw std::length_error("Map: the point " + tuple_text(point_m) + " and " + std::to_string(margin_m) + " m around it lie beyond " +
+                              std::to_string(reach_m) + " m from the map's origin");
     }
   }
 

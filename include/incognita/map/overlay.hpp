@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "incognita/geometry/box.hpp"
 #include "incognita/map/map.hpp"
 
 namespace incognita {
@@ -106,7 +107,8 @@ class Overlay {
     map_->require_reach(T_map_sensor.position(), scan.range_max_m() + map_->hit_push_m());
     beams_.take(map_->cell(), map_->lattice(), scan, T_map_sensor, covariance, map_->hit_push_m());
     if (!map_->grid().box().contains(beams_.reach())) {
-      throw std::length_error("Overlay::update: a predicted scan reaches out of the map's box; see Map::reserve");
+      throw std::length_error("Overlay::update: a predicted scan reaches the cells " + box_text(beams_.reach()) +
+                              ", but must stay within those of the map, " + box_text(map_->grid().box()) + "; see Map::reserve");
     }
     ++stamp_;
     beams_.write(map_->cell(), *layers_, map_->blocked_above(), stamp_, Access{*this});
@@ -122,7 +124,8 @@ class Overlay {
     map_->require_reach(position_m, beams.range_max_m);
     const Box<Point<2>> reach_m = Box<Point<2>>{position_m, position_m}.padded(beams.range_max_m);
     if (!map_->grid().box().contains(map_->lattice().cells_of(reach_m).padded(1))) {
-      throw std::length_error("Overlay::cast: a beam may reach out of the map's box; see Map::reserve");
+      throw std::length_error("Overlay::cast: a beam may reach the cells " + box_text(map_->lattice().cells_of(reach_m).padded(1)) +
+                              ", but must stay within those of the map, " + box_text(map_->grid().box()) + "; see Map::reserve");
     }
     beams_.cast(map_->lattice(), *layers_, beams, position_m, map_->hit_push_m(), measure_m);
   }
@@ -137,7 +140,9 @@ class Overlay {
   static constexpr std::uint32_t no_slot = static_cast<std::uint32_t>(-1);
 
   void require_stamp() const {
-    if (stamp_ == static_cast<ScanStamp>(-1)) throw std::length_error("Overlay: too many predicted scans");
+    if (stamp_ == static_cast<ScanStamp>(-1)) {
+      throw std::length_error("Overlay: too many predicted scans: no stamp is left of the 5535 after look_at");
+    }
   }
 
   /// What MapBeams::write asks for.

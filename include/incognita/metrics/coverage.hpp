@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <vector>
 
+#include "incognita/core/error.hpp"
+#include "incognita/geometry/pose.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/grid/grid.hpp"
 #include "incognita/metrics/belief_box.hpp"
@@ -19,7 +20,7 @@ class Coverage {
   /// std::invalid_argument when there is none, or for a pose that is not finite. O(cells).
   template <class Value>
   Coverage(const Grid<Value, 2>& visible, const Pose2& T_belief_world, const Lattice<2>& belief_lattice) {
-    if (!T_belief_world.is_finite()) throw std::invalid_argument("Coverage: T_belief_world is not finite");
+    require_finite_pose("Coverage", "T_belief_world", T_belief_world);
     Grid<std::uint32_t, 2> counts(belief_lattice, belief_box(visible, T_belief_world, belief_lattice));
     std::uint64_t total = 0;
     for (Offset cell = 0; cell < static_cast<Offset>(visible.size()); ++cell) {
@@ -28,7 +29,7 @@ class Coverage {
       ++counts[counts.offset_of(belief_lattice.index_of(center_m))];
       ++total;
     }
-    if (total == 0) throw std::invalid_argument("Coverage: there is no floor to be seen");
+    require(total > 0, "Coverage", "the number of pixels of floor to be seen", static_cast<double>(total), ">= 1");
     for (Offset cell = 0; cell < static_cast<Offset>(counts.size()); ++cell) {
       if (counts[cell] != 0) shares_.push_back({counts.index_at(cell), counts[cell]});
     }

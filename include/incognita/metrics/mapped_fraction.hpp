@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
 
+#include "incognita/core/error.hpp"
+#include "incognita/geometry/box.hpp"
 #include "incognita/map/occupancy.hpp"
 
 namespace incognita {
@@ -12,7 +13,7 @@ namespace incognita {
 /// outside of the belief's box is not. Throws std::invalid_argument for an empty workspace. O(cells of both).
 template <int Dim>
 [[nodiscard]] double mapped_fraction(const OccupancyGrid<Dim>& occupancy, const IndexBox<Dim>& workspace) {
-  if (workspace.empty()) throw std::invalid_argument("mapped_fraction: the workspace is empty");
+  if (workspace.empty()) throw_invalid("mapped_fraction", "the workspace", box_text(workspace), "a box that holds cells");
   double cells = 1.0;
   for (int axis = 0; axis < Dim; ++axis) cells *= workspace.upper[axis] - workspace.lower[axis];
   std::size_t known = 0;

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 
 #include "incognita/core/angles.hpp"
+#include "incognita/core/error.hpp"
 #include "incognita/geometry/pose2.hpp"
 
 namespace incognita {
@@ -29,9 +29,8 @@ template <int Dim>
       for (std::size_t k = 0; k < j; ++k) root[i][j] -= root[i][k] * root[j][k];
       if (j < i) root[i][j] /= root[j][j];
     }
-    if (!(root[i][i] > 0.0) || !std::isfinite(root[i][i])) {
-      throw std::invalid_argument("nees: the covariance is not finite and positive definite");
-    }
+    require(std::isfinite(root[i][i]) && root[i][i] > 0.0, "nees", "a pivot of the covariance", root[i][i],
+            "finite and > 0: a covariance is positive definite");
     root[i][i] = std::sqrt(root[i][i]);
     whitened[i] = error(row);
     for (std::size_t k = 0; k < i; ++k) whitened[i] -= root[i][k] * whitened[k];

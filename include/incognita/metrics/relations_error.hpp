@@ -40,7 +40,7 @@ struct RelationsError {
                                                     double tolerance_s = 1e-5) {
   if (times_s.size() != poses.size()) {
     throw std::invalid_argument("relations_error: " + std::to_string(times_s.size()) + " times for " +
-                                std::to_string(poses.size()) + " poses");
+                                std::to_string(poses.size()) + " poses, but must be as many");
   }
   require_ascending("relations_error", times_s);
   require_non_negative("relations_error", "tolerance_s", tolerance_s);

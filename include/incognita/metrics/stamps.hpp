@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 
 #include "incognita/core/error.hpp"
@@ -15,9 +14,10 @@ namespace incognita {
 
 /// Throws std::invalid_argument unless the times never fall.
 inline void require_ascending(const char* where, std::span<const double> times_s) {
-  if (!std::is_sorted(times_s.begin(), times_s.end())) {
-    throw std::invalid_argument(std::string(where) + ": times_s is not in ascending order");
-  }
+  const auto fall = std::is_sorted_until(times_s.begin(), times_s.end());
+  if (fall == times_s.end()) return;
+  const auto place = std::to_string(fall - times_s.begin());
+  throw_invalid(where, "times_s[" + place + ']', *fall, "in ascending order, >= " + std::to_string(*(fall - 1)) + " before it");
 }
 
 /// The index of the stamp nearest to `time_s` among ascending ones (the first of equals), if it is not

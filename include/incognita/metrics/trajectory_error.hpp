@@ -10,6 +10,7 @@
 #include <string>
 
 #include "incognita/core/angles.hpp"
+#include "incognita/core/error.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/vector.hpp"
 
@@ -55,7 +56,7 @@ namespace detail {
 inline void require_equal_sizes(const char* where, std::size_t a, std::size_t b) {
   if (a != b) {
     throw std::invalid_argument(std::string(where) + ": " + std::to_string(a) + " estimated and " +
-                                std::to_string(b) + " true poses");
+                                std::to_string(b) + " true poses, but must be as many");
   }
 }
 
@@ -76,7 +77,7 @@ inline void require_equal_sizes(const char* where, std::size_t a, std::size_t b)
 /// do not fix the rotation (all equal) it is 0.
 [[nodiscard]] inline Pose2 align_rigidly(std::span<const Pose2> estimated, std::span<const Pose2> truth) {
   detail::require_equal_sizes("align_rigidly", estimated.size(), truth.size());
-  if (estimated.empty()) throw std::invalid_argument("align_rigidly: the trajectories are empty");
+  require(!estimated.empty(), "align_rigidly", "the number of poses", 0.0, ">= 1");
   const double per_pose = 1.0 / static_cast<double>(estimated.size());
   Eigen::Vector2d estimated_mean(0.0, 0.0);
   Eigen::Vector2d true_mean(0.0, 0.0);

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "incognita/core/error.hpp"
@@ -49,8 +49,8 @@ template <class Obstacles>
     nearest = cell;
   }
   if (!std::isfinite(nearest_m)) {
-    throw std::invalid_argument(
-        "reachable_positions: the disc can reach the centre of no cell from the start");
+    throw_invalid("reachable_positions", "the start", tuple_text(start_m),
+                  "where a disc of " + std::to_string(radius_m) + " m can reach the centre of a cell");
   }
   return flood_fill(disc_positions(obstacles, radius_m), nearest, Adjacency::faces,
                     [](std::uint8_t is_clear) { return is_clear != 0; });

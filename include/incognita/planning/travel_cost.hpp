@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "incognita/core/error.hpp"
@@ -87,11 +86,8 @@ class TravelCostField {
   void restart(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m, const Eigen::Vector2d& start_m,
                const TravelParams& params = {}) {
     params.validate();
-    if (!std::isfinite(start_m[0]) || !std::isfinite(start_m[1]))
-      throw std::invalid_argument("TravelCostField: start_m is not finite");
-    if (occupancy.box() != clearance_m.box()) {
-      throw std::invalid_argument("TravelCostField: occupancy and clearance_m differ in their boxes");
-    }
+    require_finite_start(start_m);
+    require_equal_boxes("TravelCostField", "clearance_m", clearance_m.box(), "occupancy", occupancy.box());
     const IndexBox<2>& box = occupancy.box();
     start_m_ = start_m;
     proper_max_ = static_cast<float>(1.0 + params.clearance_weight);
@@ -115,9 +111,7 @@ class TravelCostField {
   /// for a start that is not finite and for a cost that is not > 0 (NaN is not); the field is then as it was. O(cells) to set up and
   /// O(reached cells) to search while the largest cost is some thousand times the smallest at most.
   void restart(const Grid<float, 2>& cost_per_m, const Eigen::Vector2d& start_m, Adjacency adjacency = Adjacency::corners) {
-    if (!std::isfinite(start_m[0]) || !std::isfinite(start_m[1])) {
-      throw std::invalid_argument("TravelCostField: start_m is not finite");
-    }
+    require_finite_start(start_m);
     float least = infinite;
     float most = 0.0F;
     for (const float cost : cost_per_m.values()) {
@@ -192,6 +186,12 @@ class TravelCostField {
   /// Counter-clockwise from +x, so odd steps are diagonal.
   static constexpr std::array<int, 8> step_x{1, 1, 0, -1, -1, -1, 0, 1};
   static constexpr std::array<int, 8> step_y{0, 1, 1, 1, 0, -1, -1, -1};
+
+  static void require_finite_start(const Eigen::Vector2d& start_m) {
+    if (!std::isfinite(start_m[0]) || !std::isfinite(start_m[1])) {
+      throw_invalid("TravelCostField", "start_m", tuple_text(start_m), "finite");
+    }
+  }
 
   void rate_cells(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m,
                   const TravelParams& params) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "incognita/core/error.hpp"
+#include "incognita/geometry/box.hpp"
 #include "incognita/grid/near_distance.hpp"
 #include "incognita/map/occupancy.hpp"
 #include "incognita/planning/safe_space.hpp"
@@ -66,7 +67,7 @@ template <int Dim>
 [[nodiscard]] Grid<float, Dim> visit_cost(const Grid<std::uint8_t, Dim>& plan, const Grid<float, Dim>& to_unknown,
                                          const VisitCostParams& params) {
   params.validate();
-  if (plan.box() != to_unknown.box()) throw std::invalid_argument("visit_cost: plan and to_unknown differ in their boxes");
+  require_equal_boxes("visit_cost", "to_unknown", to_unknown.box(), "plan", plan.box());
   const bool is_measured = params.to_collision == DistanceMeasure::euclidean;
   const Grid<float, Dim> to_collision =
       is_measured ? distance_to_collision_m(plan, params.collision_max_m) : Grid<float, Dim>(plan.lattice(), plan.box(), 1.0F);

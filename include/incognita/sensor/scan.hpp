@@ -75,7 +75,7 @@ class Scan {
   Scan(BeamPattern<Dim> beams, std::vector<double> ranges_m) : Scan(std::move(beams)) {
     if (ranges_m.size() != size()) {
       throw std::invalid_argument("Scan: " + std::to_string(ranges_m.size()) + " ranges for " +
-                                  std::to_string(size()) + " beams");
+                                  std::to_string(size()) + " beams, but must be as many");
     }
     ranges_m_ = std::move(ranges_m);
   }

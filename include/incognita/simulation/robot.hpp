@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 
 #include "incognita/core/error.hpp"
+#include "incognita/geometry/pose.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/twist2.hpp"
 #include "incognita/sensor/obstacle_field.hpp"
@@ -33,7 +33,7 @@ class Robot {
     require_non_negative("Robot", "radius_m", params.radius_m);
     require_positive("Robot", "speed_max_m_per_s", params.speed_max_m_per_s);
     require_positive("Robot", "turn_rate_max_rad_per_s", params.turn_rate_max_rad_per_s);
-    if (!T_world_robot.is_finite()) throw std::invalid_argument("Robot: the pose is not finite");
+    require_finite_pose("Robot", "the pose", T_world_robot);
     check_start(world, T_world_robot.position(), params.radius_m);
   }
 

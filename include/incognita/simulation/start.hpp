@@ -37,7 +37,7 @@ template <class Obstacles>
                                                      [](std::uint8_t is_clear) { return is_clear != 0; });
   const std::int32_t largest = regions.largest();
   if (largest == Components<2>::none) {
-    throw std::invalid_argument("random_start: there is no room for the robot anywhere");
+    throw_invalid("random_start", "radius_m", radius_m, "so small that there is room for the robot somewhere");
   }
   std::uint64_t left = random.index(regions.sizes[static_cast<std::size_t>(largest)]);
   Offset cell = 0;

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace uncertainty_frontiers {
+namespace examples {
 
 /// The value below which a share of sorted values lies, between neighbours in proportion.
 [[nodiscard]] inline double quantile(const std::vector<double>& sorted, double share) {
@@ -23,12 +23,12 @@ namespace uncertainty_frontiers {
 }
 
 /// What a box plot shows.
-struct Box {
+struct Spread {
   double least, lower_quartile, median, upper_quartile, greatest;
 };
 
 /// Of at least one value.
-[[nodiscard]] inline Box box_of(std::vector<double> values) {
+[[nodiscard]] inline Spread spread_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return {values.front(), quantile(values, 0.25), quantile(values, 0.5), quantile(values, 0.75), values.back()};
 }
@@ -59,4 +59,4 @@ struct Line {
   return {slope, mean_y - slope * mean_x, xy / std::sqrt(xx * yy)};
 }
 
-}  // namespace uncertainty_frontiers
+}  // namespace examples
