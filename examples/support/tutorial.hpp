@@ -11,7 +11,9 @@
 
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/grid/floor_plan.hpp"
+#include "incognita/grid/grid.hpp"
 #include "support/arguments.hpp"
+#include "support/belief_output.hpp"
 #include "support/drawing.hpp"
 #include "support/drawn_plan.hpp"
 #include "support/output_folder.hpp"
@@ -45,6 +47,22 @@ inline constexpr Color true_wall{0.85, 0.25, 0.1, 0.55};
 inline void draw_true_walls(Drawing& drawing, const incognita::FloorPlan& plan, const incognita::Pose2& T_picture_world = {}) {
   drawing.raster(plan, T_picture_world,
                  [](incognita::FloorCell cell) { return cell == incognita::FloorCell::wall ? true_wall : transparent; });
+}
+
+/// A part of a map, in a picture of several: `view_m` of it, moved by `shift_m`, under a title.
+template <class Map>
+void draw_part(Drawing& drawing, const Map& map, const Area& view_m, const Eigen::Vector2d& shift_m, const std::string& title) {
+  // Faces that coincide with the view's must not add cells outside of it.
+  incognita::Grid<float, 2> log_odds(map.lattice(), map.lattice().cells_of(view_m.padded(-1e-6)));
+  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(log_odds.size()); ++cell) {
+    log_odds[cell] = map.log_odds(log_odds.index_at(cell));
+  }
+  drawing.raster(log_odds, {shift_m.x(), shift_m.y(), 0.0}, belief_color);
+  const Eigen::Vector2d low = view_m.lower + shift_m;
+  const Eigen::Vector2d high = view_m.upper + shift_m;
+  constexpr Color ink{0.1, 0.1, 0.1};
+  drawing.polyline({low, {high.x(), low.y()}, high, {low.x(), high.y()}, low}, ink, 1.0);
+  drawing.text({low.x(), high.y()}, title, ink, 16.0, {4.0, 12.0});
 }
 
 /// Points of one frame in another.

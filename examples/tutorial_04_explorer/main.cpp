@@ -69,12 +69,12 @@ void draw(const std::filesystem::path& file, const Explorer& explorer, const inc
   for (const Eigen::Vector2d& goal_m : driven.goals_m) drawing.marker(T_world_map * goal_m, goal, 5.0);
   drawing.marker(T_world_map.position(), start, 8.0);
   using examples::Swatch;
-  drawing.legend({{"believed occupied", {0.0, 0.0, 0.0}, Swatch::area},
+  drawing.legend({{"occupied", {0.0, 0.0, 0.0}, Swatch::area},
                   {"true wall", examples::true_wall, Swatch::area},
                   {"never seen", examples::never_seen, Swatch::area},
-                  {"believed path", path, Swatch::line},
+                  {"path", path, Swatch::line},
                   {"goal", goal, Swatch::dot},
-                  {"start and end", start, Swatch::dot}});
+                  {"start, end", start, Swatch::dot}});
   drawing.write_png(file);
 }
 
