@@ -14,15 +14,17 @@ namespace examples {
 /// Unknown is a bluish grey, so that it is told from what is half known.
 inline constexpr Color never_seen{0.78, 0.81, 0.85};
 
+/// From white (free) to black (occupied).
+[[nodiscard]] inline Color belief_color(float log_odds) {
+  if (log_odds == 0.0F) return never_seen;
+  const double free = 1.0 - incognita::probability_of_log_odds(static_cast<double>(log_odds));
+  return {free, free, free};
+}
+
 /// Draws the cells from white (free) to black (occupied).
 template <class Map>
 void draw_belief(Drawing& drawing, const Map& map, const incognita::Pose2& T_world_map) {
-  drawing.raster(map.grid(), T_world_map, [&](const typename Map::State& state) {
-    const float log_odds = Map::CellType::log_odds(state);
-    if (log_odds == 0.0F) return never_seen;
-    const double free = 1.0 - incognita::probability_of_log_odds(static_cast<double>(log_odds));
-    return Color{free, free, free};
-  });
+  drawing.raster(map.grid(), T_world_map, [](const typename Map::State& state) { return belief_color(Map::CellType::log_odds(state)); });
 }
 
 /// The cells that were measured, as a box.

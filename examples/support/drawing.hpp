@@ -46,9 +46,9 @@ class Drawing {
  public:
   using Point = Eigen::Vector2d;
 
-  /// The map of `world_m` with its longer side `side_px` long. Throws std::invalid_argument for an empty
-  /// world.
-  explicit Drawing(const incognita::Box<Point>& world_m, int side_px = 1600) : world_m_(world_m) {
+  /// The map of `world_m` with its longer side `side_px` long, in a picture at least `width_min_px` wide, so that the legend has
+  /// room. Throws std::invalid_argument for an empty world.
+  explicit Drawing(const incognita::Box<Point>& world_m, int side_px = 1600, double width_min_px = 1400.0) : world_m_(world_m) {
     if (world_m.empty()) incognita::throw_invalid("Drawing", "the world", incognita::box_text(world_m), "a box with an area");
     px_per_m_ = side_px / world_m.extent().maxCoeff();
     const Point map_px = (world_m.extent() * px_per_m_).array().ceil();
@@ -265,7 +265,6 @@ class Drawing {
 
   static constexpr double margin_px = 24.0;
   static constexpr double strip_px = 48.0;
-  static constexpr double width_min_px = 1400.0;  // room for the legend
   static constexpr double legend_font_px = 16.0;
 
   incognita::Box<Point> world_m_;
