@@ -146,7 +146,7 @@ TEST_CASE("A prior on the map's own lattice comes over as it is", "[map]") {
 TEST_CASE("A prior beyond doubt is held within the bounds", "[map]") {
   Grid<float, 2> given(Lattice<2>(0.1), {Index<2>(0, 0), Index<2>(4, 1)}, unknown);
   given.values() = {0.0F, 1.0F, 0.5F, unknown};
-  const auto values = prior_log_odds(given, 0.1, {.T_map_prior = {}, .probability_min = 0.1, .probability_max = 0.8}).values();
+  const auto values = prior_log_odds(given, 0.1, {.probability_min = 0.1, .probability_max = 0.8}).values();
   CHECK(values[0] == Approx(logit(0.1)));
   CHECK(values[1] == Approx(logit(0.8)));
   CHECK(values[2] == 0.0F);
@@ -281,9 +281,9 @@ TEST_CASE("A prior in space starts a map in space", "[map]") {
 
 TEST_CASE("Bad priors are refused", "[map]") {
   const Grid<float, 2> given = room();
-  CHECK_THROWS_WITH(prior_log_odds(given, 0.1, {.T_map_prior = {}, .probability_min = 0.5}),
+  CHECK_THROWS_WITH(prior_log_odds(given, 0.1, {.probability_min = 0.5}),
                     "PriorParams: probability_min is 0.5, but must be in (0, 0.5)");
-  CHECK_THROWS_AS(prior_log_odds(given, 0.1, {.T_map_prior = {}, .probability_min = 0.1, .probability_max = 1.0}), std::invalid_argument);
+  CHECK_THROWS_AS(prior_log_odds(given, 0.1, {.probability_min = 0.1, .probability_max = 1.0}), std::invalid_argument);
   CHECK_THROWS_AS(prior_log_odds(given, 0.1, {.T_map_prior = {NAN, 0.0, 0.0}}), std::invalid_argument);
   CHECK_THROWS_AS(prior_log_odds(given, 0.1, {.T_map_prior = {1e9, 0.0, 0.0}}), std::length_error);
   CHECK_THROWS_AS(prior_log_odds(given, 1e-6), std::length_error);

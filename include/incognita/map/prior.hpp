@@ -17,7 +17,7 @@ namespace incognita {
 struct PriorParams {
   /// Takes the prior's frame to the map's. An explorer's map has its origin where the robot starts, so there: the inverse of where the
   /// robot stands in the prior.
-  Pose2 T_map_prior;
+  Pose2 T_map_prior = {};
   /// What is surer than this is taken as no surer, so that scans can say otherwise: a map_server map in trinary mode knows 0 and 1 alone.
   double probability_min = 0.02;  ///< in (0, 0.5)
   double probability_max = 0.98;  ///< in (0.5, 1)
