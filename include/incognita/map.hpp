@@ -1,7 +1,7 @@
 /// map/: beliefs over occupancy. `Map<Cell>` grows with what it is shown; a cell policy (concept CellPolicy, with its laws)
 /// says what a hit and a pass do to one cell: TBayes (Seo et al.), LogOdds, or Dispersion, which also knows how certain the place of
 /// what it holds is (Sansoni et al.; `uncertainty_map` draws it). `Overlay` predicts scans on top of a map
-/// without copying it. `classify` reduces a belief to free, occupied and unknown for frontiers and planning;
+/// without copying it. `map_with_prior` starts a map from what is known already. `classify` reduces a belief to free, occupied and unknown for frontiers and planning;
 /// `OccupancyLayer`, `EntropyLayer` and `CellSum` follow a map scan by scan at the cost of what changes.
 #pragma once
 
@@ -19,5 +19,6 @@
 #include "incognita/map/occupancy.hpp"
 #include "incognita/map/occupancy_layer.hpp"
 #include "incognita/map/overlay.hpp"
+#include "incognita/map/prior.hpp"
 #include "incognita/map/scan_integration.hpp"
 #include "incognita/map/uncertainty_map.hpp"

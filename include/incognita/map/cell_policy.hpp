@@ -61,6 +61,14 @@ concept PoseAwarePolicy =
 template <class P>
 concept OncePolicy = CellPolicy<P> && P::once_a_scan;
 
+/// A policy may make the state of a cell of which log-odds are known already, so that a map starts from a prior (map/prior.hpp). Laws:
+/// state_of_log_odds(l) has the log-odds l, held within the policy's bounds and to its steps; those of 0 are exactly 0; no stamp is in
+/// it. l may be infinite.
+template <class P>
+concept PriorPolicy = CellPolicy<P> && requires(const P& policy, float log_odds) {
+  { policy.state_of_log_odds(log_odds) } -> std::same_as<typename P::State>;
+};
+
 /// A policy may know how certain the place of what a cell holds is, as log-odds of a dispersion probability (map/cells/dispersion.hpp),
 /// and what is just tolerated, beta.
 template <class P>

@@ -50,6 +50,26 @@ class Map {
             static_cast<double>(params.blocked_above), "finite and >= 0");
   }
 
+  /// Starts from log-odds that are known already (see map/prior.hpp, which makes them); cells of 0 and NaN are unknown. Counts as one
+  /// update. Throws std::invalid_argument for bad parameters and for a grid on another lattice than the map's, which has its origin
+  /// at 0. O(cells).
+  explicit Map(const Grid<float, Dim>& log_odds, const MapParams& params = {}, Cell cell = Cell{})
+    requires PriorPolicy<Cell>
+      : Map(params, std::move(cell)) {
+    require(log_odds.resolution_m() == params.resolution_m, "Map", "resolution_m of the given log-odds", log_odds.resolution_m(),
+            "the map's");
+    if (!equal(log_odds.lattice().origin_m(), lattice().origin_m())) {
+      throw std::invalid_argument("Map: the lattice of the given log-odds must have its origin at 0");
+    }
+    if (log_odds.box().empty()) return;
+    grow_to_include(log_odds.box());
+    ++update_count_;
+    for (Offset offset = 0; offset < static_cast<Offset>(log_odds.size()); ++offset) {
+      const float given = log_odds[offset];
+      if (given != 0.0F && !std::isnan(given)) start_with(log_odds.index_at(offset), cell_.state_of_log_odds(given));
+    }
+  }
+
   [[nodiscard]] const Cell& cell() const { return cell_; }  ///< the policy, with its parameters
   [[nodiscard]] const Grid<State, Dim>& grid() const { return grid_; }  ///< the states of all cells
   [[nodiscard]] const Lattice<Dim>& lattice() const { return grid_.lattice(); }  ///< in the map's frame
@@ -57,7 +77,7 @@ class Map {
   [[nodiscard]] float blocked_above() const { return params_.blocked_above; }  ///< in log-odds, see MapParams
   [[nodiscard]] double hit_push_m() const { return params_.hit_push_cells * params_.resolution_m; }  ///< see MapParams
 
-  /// How many scans were written; what follows a map knows by it whether it has missed one.
+  /// How many scans were written, and 1 for a prior; what follows a map knows by it whether it has missed one.
   [[nodiscard]] std::uint64_t update_count() const { return update_count_; }
 
   /// The stamp of the last scan; 0 before the first.
@@ -158,6 +178,17 @@ class Map {
       constexpr int in_tile = CellBits::tile_side - 1;
       return states[first + (bit & in_tile) + (bit >> CellBits::tile_shift) * stride];
     };
+  }
+
+  void start_with(const Index<Dim>& index, const State& state) {
+    grid_[grid_.offset_of(index)] = state;
+    if constexpr (Dim == 2) {
+      const Index<2> tile = CellBits::tile_of(index);
+      const Offset place = layers_.heeding.tiles().offset_of(tile);
+      const CellBits::Word cell = CellBits::mask_of(index);
+      layers_.mark_changed(place, tile, cell);
+      layers_.assign(place, cell, Cell::log_odds(state) > params_.blocked_above ? cell : 0, cell_.ignores_passes(state) ? cell : 0);
+    }
   }
 
   void grow_to_include(const IndexBox<Dim>& cells) {

@@ -36,6 +36,13 @@ struct OccupancyThresholds {
     return {std::nextafter(log_odds(free_max), infinity), std::nextafter(log_odds(occupied_min), -infinity)};
   }
 
+  /// Those of OctoMap, by which every node that was measured is free or, from a probability of 0.5 on, occupied. Log-odds of exactly 0,
+  /// which OctoMap calls occupied, are unknown here. For what is measured a few times at least: no frontier survives a doubt.
+  [[nodiscard]] static OccupancyThresholds octomap() {
+    constexpr float least = std::numeric_limits<float>::min();
+    return {-least, least};
+  }
+
   /// What log-odds make of a cell.
   [[nodiscard]] Occupancy classify(float log_odds) const {
     if (log_odds < free_below) return Occupancy::free;

@@ -1,8 +1,10 @@
 /// The laws of CellPolicy as a check that any test can call, for the library's policies and for a user's.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <sstream>
 #include <string_view>
 
@@ -12,7 +14,7 @@
 
 namespace incognita {
 
-/// Checks the laws on the page of CellPolicy, and of ClearingPolicy and OncePolicy where it is one (map/cell_policy.hpp), on fixed seeded
+/// Checks the laws on the page of CellPolicy, and of ClearingPolicy, PriorPolicy and OncePolicy where it is one (map/cell_policy.hpp), on fixed seeded
 /// sequences of hits and passes, with residuals up to 100 m and poses from exact to a variance of 100 m^2, and on 20,000 equal
 /// updates in a row. A policy that passes may still break a law on another sequence.
 template <CellPolicy Policy>
@@ -101,6 +103,34 @@ template <CellPolicy Policy>
       }
     }
     report.check(same, "a pass of a new cell at clearing_residual_m or beyond leaves a cleared one, which ignores passes");
+  }
+
+  if constexpr (PriorPolicy<Policy>) {
+    report.check(Policy::log_odds(policy.state_of_log_odds(0.0F)) == 0.0F, "a prior of 0 is unknown");
+    const float least = Policy::log_odds(policy.state_of_log_odds(-std::numeric_limits<float>::infinity()));
+    const float most = Policy::log_odds(policy.state_of_log_odds(std::numeric_limits<float>::infinity()));
+    report.check(std::isfinite(least) && std::isfinite(most) && least < 0.0F && most > 0.0F, "priors beyond doubt are bounded");
+    Random random(11);
+    bool is_kept = true;
+    bool is_new = true;
+    for (int draw = 0; draw < 2000; ++draw) {
+      const auto given = static_cast<float>(random.uniform(-1.2, 1.2)) * (draw % 2 == 0 ? 1.0F : 30.0F);
+      State state = policy.state_of_log_odds(given);
+      const float held = Policy::log_odds(state);
+      is_kept = is_kept && std::abs(held - std::clamp(given, least, most)) <= 0.002F;
+      is_kept = is_kept && Policy::log_odds(policy.state_of_log_odds(held)) == held;
+      const auto stamp = static_cast<ScanStamp>(1 + draw);
+      static_cast<void>(check_ignored(state, 0.01, 1.0F, stamp));
+      State renewed = state;
+      policy.forget_stamp(renewed);
+      for (State* const cell : {&state, &renewed}) {
+        policy.hit(*cell, exact, 0.0F, stamp);
+        policy.pass(*cell, exact, 1.0F, static_cast<ScanStamp>(stamp + 1));
+      }
+      is_new = is_new && Policy::log_odds(state) == Policy::log_odds(renewed);
+    }
+    report.check(is_kept, "a prior's log-odds are those given, within the policy's bounds and steps");
+    report.check(is_new, "a prior has no stamp");
   }
 
   if constexpr (OncePolicy<Policy>) {

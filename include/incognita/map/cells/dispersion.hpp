@@ -120,6 +120,14 @@ class BasicDispersion {
   /// Nothing but the stamp changes.
   void forget_stamp(State& state) const { state.seen_by = 0; }
 
+  /// See PriorPolicy. Of occupancy: the dispersion stays that of a cell that was never seen.
+  [[nodiscard]] State state_of_log_odds(float log_odds) const {
+    const int steps = static_cast<int>(std::lround(std::clamp(static_cast<double>(log_odds), -31.0, 31.0) * steps_per_unit));
+    State state;
+    state.occupancy = static_cast<unsigned>(std::clamp(occupancy_zero + steps, least_, most_)) & 0x7FFFU;
+    return state;
+  }
+
   /// Of occupancy.
   [[nodiscard]] static float log_odds(const State& state) {
     return static_cast<float>(state.occupancy - occupancy_zero) * (1.0F / steps_per_unit);

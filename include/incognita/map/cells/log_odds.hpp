@@ -22,6 +22,14 @@ class LogOdds {
     bool hits_win = true;         ///< passes of a scan leave alone what the same scan hit
   };
 
+  /// The cells of OctoMap: hit and pass are its 0.7 and 0.4 to two digits, the bounds its clamping thresholds (0.1192 and 0.971).
+  [[nodiscard]] static Params octomap_params() {
+    Params params;
+    params.log_odds_min = -2.0F;
+    params.log_odds_max = 3.5F;
+    return params;
+  }
+
   /// What a cell remembers, in 8 bytes.
   struct State {
     float log_odds = 0.0F;  ///< natural; 0 is unknown
@@ -67,6 +75,11 @@ class LogOdds {
   /// Nothing but the stamp changes.
   void forget_stamp(State& state) const { state.hit_by = 0; }
 
+  /// See PriorPolicy.
+  [[nodiscard]] State state_of_log_odds(float log_odds) const {
+    return {std::clamp(log_odds, params_.log_odds_min, params_.log_odds_max), 0};
+  }
+
   [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }  ///< as stored
 
  private:
@@ -77,6 +90,6 @@ class LogOdds {
   Params params_;
 };
 
-static_assert(CellPolicy<LogOdds>);
+static_assert(PriorPolicy<LogOdds>);
 
 }  // namespace incognita

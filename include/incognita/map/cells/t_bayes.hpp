@@ -146,6 +146,18 @@ class TBayes {
   /// Nothing but the stamp changes.
   void forget_stamp(State& state) const { state.settled_by = 0; }
 
+  /// See PriorPolicy. The cell was hit as often as hits at an exact pose, with residual 0, take to raise a new one so far, so what is
+  /// believed to be a wall resists beams as a wall does. O(hits_max).
+  [[nodiscard]] State state_of_log_odds(float log_odds) const {
+    State state{std::clamp(log_odds, params_.log_odds_min, params_.log_odds_max), 0, 0};
+    const Beam exact = beam(0.0);
+    for (float raised = 0.0F; raised < state.log_odds && state.hits < params_.hits_max;) {
+      ++state.hits;
+      raised += increment(state, exact, 0.0F);
+    }
+    return state;
+  }
+
   [[nodiscard]] static float log_odds(const State& state) { return state.log_odds; }  ///< as stored
 
  private:
@@ -166,6 +178,6 @@ class TBayes {
   double erosion_sigmas2_ = 0.0;
 };
 
-static_assert(ClearingPolicy<TBayes>);
+static_assert(ClearingPolicy<TBayes> && PriorPolicy<TBayes>);
 
 }  // namespace incognita
