@@ -4,7 +4,7 @@
 : "${root:?}"
 
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libpugixml-dev libyaml-cpp-dev libpng-dev
-  nlohmann-json3-dev)
+  zlib1g-dev nlohmann-json3-dev)
 example_packages=(libcli11-dev libcairo2-dev fonts-dejavu-core gnuplot-nox)
 test_packages=(catch2 libbenchmark-dev)
 benchmark_packages=(libbenchmark-dev libcli11-dev gnuplot-nox python3)

@@ -65,6 +65,12 @@ class BasicCellBits {
   [[nodiscard]] const Grid<Word, Dim>& tiles() const { return tiles_; }
   [[nodiscard]] Grid<Word, Dim>& tiles() { return tiles_; }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(tiles_);
+  }
+
  private:
   Grid<Word, Dim> tiles_;
 };

@@ -38,6 +38,14 @@ class BasicDispersion {
     double pass = -0.4;         ///< by a pass, in [-31, -1/512]
     double log_odds_min = -10.0;  ///< in [-31, -1/512]
     double log_odds_max = 10.0;   ///< in [1/512, 31]
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields(
+          "sigma_max_m, box_side_m, kappa, noise, hit, pass, log_odds_min, log_odds_max",
+          sigma_max_m, box_side_m, kappa, noise, hit, pass, log_odds_min, log_odds_max);
+    }
   };
 
   static constexpr int occupancy_zero = 1 << 14;
@@ -47,6 +55,18 @@ class BasicDispersion {
     ScanStamp seen_by = 0;             // the last scan that updated the cell
     std::uint16_t occupancy : 15 = occupancy_zero;  // in steps
     bool is_explored : 1 = false;
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      auto bits = static_cast<std::uint16_t>(occupancy | (is_explored ? 0x8000U : 0U));
+      archive(dispersion_log_odds, seen_by, bits);
+      if constexpr (Archive::is_loading) {
+        archive.require(std::isfinite(dispersion_log_odds), "a cell's dispersion is not finite");
+        occupancy = bits & 0x7FFFU;
+        is_explored = (bits & 0x8000U) != 0;
+      }
+    }
   };
 
   using Beam = typename View::Beam;
