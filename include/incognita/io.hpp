@@ -17,6 +17,8 @@
 /// - io/polygons.hpp: read_polygons, no-go areas
 /// - io/png.hpp, pgm.hpp, image.hpp: read_png and write_png (libpng), read_pgm and write_pgm
 /// - io/image_file.hpp: read_image, a PNG or a PGM, by its first bytes
+/// - io/mission_file.hpp: save_mission and load_mission, explorers that stop and go on (zlib)
+/// - io/state_archive.hpp: StateWriter and StateReader, states as bytes
 /// - io/read_file.hpp, atomic_file.hpp, number.hpp, text_lines.hpp: what the formats are made of
 /// - io/input_error.hpp: the one exception
 ///
@@ -47,6 +49,7 @@
 #include "incognita/io/kth_xml.hpp"
 #include "incognita/io/map_metadata.hpp"
 #include "incognita/io/map_server.hpp"
+#include "incognita/io/mission_file.hpp"
 #include "incognita/io/npy.hpp"
 #include "incognita/io/number.hpp"
 #include "incognita/io/octomap.hpp"
@@ -61,5 +64,6 @@
 #include "incognita/io/robot_log.hpp"
 #include "incognita/io/robot_log_file.hpp"
 #include "incognita/io/run_recorder.hpp"
+#include "incognita/io/state_archive.hpp"
 #include "incognita/io/text_lines.hpp"
 #include "incognita/io/tum.hpp"

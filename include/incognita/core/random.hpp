@@ -35,6 +35,12 @@ class Random {
     return static_cast<std::uint64_t>(uniform() * static_cast<double>(count));
   }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(engine_);
+  }
+
  private:
   std::mt19937_64 engine_;
 };

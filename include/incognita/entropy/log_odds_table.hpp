@@ -100,6 +100,14 @@ class EntropyTable {
 
   [[nodiscard]] double log_odds_max() const { return log_odds_max_; }  ///< the end of the table
 
+  /// For archives of states, see docs/mission_file.md: what tells one entropy from another.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    const auto at = [&](float log_odds) { return static_cast<float>((*this)(log_odds)); };
+    fields("log_odds_max, nats_at_0, nats_at_1, nats_at_2, nats_at_4, nats_at_8", log_odds_max_, at(0.0F), at(1.0F), at(2.0F), at(4.0F),
+           at(8.0F));
+  }
+
  private:
   std::vector<double> values_nats_;
   double log_odds_max_;

@@ -51,6 +51,14 @@ struct CompassParams {
     require(wall_sigma_walls >= 1.0, "CompassParams", "wall_sigma_walls", wall_sigma_walls, ">= 1");
     require(scans_a_view >= 1.0, "CompassParams", "scans_a_view", scans_a_view, ">= 1");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "segments, wall_sigma_rad, wall_sigma_walls, inlier_max_rad, length_min_m, share_min, scans_a_view",
+        segments, wall_sigma_rad, wall_sigma_walls, inlier_max_rad, length_min_m, share_min, scans_a_view);
+  }
 };
 
 /// The direction that most of the straight pieces' length is parallel or perpendicular to, refined over those that are.
@@ -111,6 +119,12 @@ class Compass {
   struct Heading {
     double yaw_rad;        ///< of the robot in the map's frame, in (-pi, pi]
     double variance_rad2;  ///< of the ranges' noise and of walls off the right angle
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(yaw_rad, variance_rad2);
+    }
   };
 
   Compass() = default;  ///< with the default parameters
@@ -157,6 +171,13 @@ class Compass {
     const double assumed_rad2 = params_.wall_sigma_rad * params_.wall_sigma_rad;
     const double sum_rad2 = params_.wall_sigma_walls * assumed_rad2 + walls_ * std::max(0.0, wall_scatter_rad2_);
     return sum_rad2 / (params_.wall_sigma_walls + walls_);
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("compass", params_);
+    archive(scans_, share_, walls_, wall_scatter_rad2_, measurements_, direction_rad_);
   }
 
  private:

@@ -47,6 +47,14 @@ struct CorrelativeSearchParams {
     require_non_negative("CorrelativeSearchParams", "separation_rad", separation_rad);
     require_non_negative("CorrelativeSearchParams", "objective_margin", objective_margin);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "step_m, yaw_step_rad, sigma_m, prior_weight, candidates_max, separation_m, separation_rad, objective_margin",
+        step_m, yaw_step_rad, sigma_m, prior_weight, candidates_max, separation_m, separation_rad, objective_margin);
+  }
 };
 
 /// A pose that a search found.

@@ -16,6 +16,12 @@ class DeadReckoning {
     /// As random as 0.05 m/s and 0.02 rad/s drawn anew every 0.02 s.
     MotionNoise noise{0.00707, 0.00283};
     PoseBelief start;  ///< in the map's frame
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields("noise, start", noise, start);
+    }
   };
 
   /// Starts at identity, without uncertainty.
@@ -54,6 +60,14 @@ class DeadReckoning {
   [[nodiscard]] PoseBelief imagine_scan(const PoseBelief& belief, std::span<const RayObservation> /*hits*/,
                                         std::size_t /*beam_count*/, double /*scan_count*/) const {
     return belief;
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("filter", params_);
+    archive(belief_);
+    archive.require(belief_.pose.is_finite(), "a pose is not finite");
   }
 
  private:

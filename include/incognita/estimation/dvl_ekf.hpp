@@ -29,9 +29,15 @@ struct NoLoops {
   /// None.
   struct Params {
     void validate() const {}  ///< never throws
+
+    template <class Fields>
+    void list_fields(Fields& /*fields*/) const {}
   };
   NoLoops() = default;                           ///< closes nothing
   explicit NoLoops(const Params& /*params*/) {}  ///< likewise
+
+  template <class Archive>
+  void archive_state(Archive& /*archive*/, std::size_t /*pieces*/) {}
 };
 
 /// Prediction by (7); correction by the tempered likelihoods of (9) with R_x of (10). Form::registration (the default)
@@ -89,6 +95,18 @@ class BasicDvlEkf {
     RayUpdateParams ray;          ///< for Form::ray
     /// For imagined scans: divided by the number of beams, so that little is learned where little is seen.
     RayUpdateParams imagined{{}, 1.2, Tempering::beams, MixtureVariance::squared_weights};
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields(
+          "start, noise, start_scans_held, start_hold_distance_m, start_hold_turn_rad, form, coupled, decoupled_probability_min, "
+          "registration, surfaces, drift, loops, uses_compass, compass, searches_each_scan, search_window, search, consistency, "
+          "relocation, lost_scans, ray, imagined",
+          start, noise, start_scans_held, start_hold_distance_m, start_hold_turn_rad, form, coupled, decoupled_probability_min, registration,
+          surfaces, drift, loops, uses_compass, compass, searches_each_scan, search_window, search, consistency, relocation, lost_scans, ray,
+          imagined);
+    }
   };
 
   /// With the default parameters.
@@ -217,6 +235,19 @@ class BasicDvlEkf {
     RayUpdateParams params = params_.imagined;
     params.gamma *= scan_count;
     return {belief.pose, updated_covariance(belief.covariance, ray_information(hits, beam_count, params).matrix)};
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("filter", params_);
+    archive(belief_, in_map_, driven_, drift_);
+    surfaces_.archive_state(archive, drift_.size());
+    archive(compass_, relocation_);
+    loops_.archive_state(archive, drift_.size());
+    archive(heading_, scans_held_);
+    archive.require(belief_.pose.is_finite() && driven_.pose.is_finite(), "a pose is not finite");
+    archive.require(scans_held_ >= 0 && scans_held_ <= params_.start_scans_held, "too many scans were held at the start");
   }
 
  private:

@@ -22,6 +22,12 @@ struct CorrectionReport {
   bool trusted = true;
   bool relocated = false;  ///< the robot was found again somewhere else
   bool lost = false;       ///< too many scans in a row were not to be trusted
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(associations, residual_rms_m, consistent_share, trusted, relocated, lost);
+  }
 };
 
 /// An estimator holds a PoseBelief in the map's frame. For each odometry increment: predict. For each scan, in this

@@ -61,6 +61,12 @@ class MapDrift {
               reference_quantile, "in [0, 1]");
       require(scans_per_piece >= 1, "MapDrift", "scans_per_piece", scans_per_piece, ">= 1");
     }
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields("inherited_share, reference_quantile, scans_per_piece", inherited_share, reference_quantile, scans_per_piece);
+    }
   };
 
   MapDrift() = default;  ///< with the default parameters
@@ -76,6 +82,12 @@ class MapDrift {
     Eigen::Matrix3d drift = zero<Eigen::Matrix3d>();  ///< a covariance of twists
     double turn_at_birth_rad2 = 0.0;                  ///< the variance of its piece's turn when that was born
     int piece = 0;                                    ///< its number
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(drift, turn_at_birth_rad2, piece);
+    }
   };
 
   [[nodiscard]] const Reference& reference() const { return reference_; }  ///< as last chosen
@@ -190,12 +202,27 @@ class MapDrift {
     return std::max(0.0, variance_m2);
   }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("drift", params_);
+    archive(reference_, pieces_, scans_in_piece_, begins_piece_);
+    archive.require(reference_.piece >= 0 && (reference_.piece == 0 || static_cast<std::size_t>(reference_.piece) < size()),
+                    "the piece that poses are registered to is not there");
+    archive.require(!pieces_.empty() || begins_piece_, "a map has no pieces");
+  }
+
  private:
   struct Piece {
     Eigen::Matrix3d drift;
     Eigen::Vector3d twist;    // how far it was moved since it was born ...
     Eigen::Vector3d settled;  // ... and how much of that its stored surfaces have taken part in
     double turn_at_birth_rad2;
+
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(drift, twist, settled, turn_at_birth_rad2);
+    }
   };
 
   struct Match {

@@ -15,6 +15,12 @@ namespace incognita {
 struct PoseBelief {
   Pose2 pose;                                            ///< the mean
   Eigen::Matrix3d covariance = zero<Eigen::Matrix3d>();  ///< symmetric and positive semi-definite
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(pose, covariance);
+  }
 };
 
 /// The covariance of independent errors.
@@ -55,6 +61,12 @@ struct MotionNoise {
     const double position_m2 = position_m_per_sqrt_s * position_m_per_sqrt_s * duration_s;
     const double yaw_rad2 = yaw_rad_per_sqrt_s * yaw_rad_per_sqrt_s * duration_s;
     return diagonal_covariance(position_m2, position_m2, yaw_rad2);
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("position_m_per_sqrt_s, yaw_rad_per_sqrt_s", position_m_per_sqrt_s, yaw_rad_per_sqrt_s);
   }
 };
 

@@ -39,6 +39,12 @@ struct RayUpdateParams {
     dvl.validate();
     require_positive("RayUpdateParams", "gamma", gamma);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("dvl, gamma, tempering, mixture", dvl, gamma, tempering, mixture);
+  }
 };
 
 /// The tempered sum of (11) over the hits of a scan of beam_count beams. h = ||x - chi||, so H = (-direction, 0): the

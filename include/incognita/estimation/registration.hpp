@@ -47,6 +47,15 @@ struct RegistrationParams {
     require_non_negative("RegistrationParams", "along_weight", along_weight);
     require_positive("RegistrationParams", "residual_scale_m", residual_scale_m);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "dvl, mixture, gamma, iterations, across_max_m, along_max_m, point_distance_max_m, point_weight, along_weight, "
+        "residual_scale_m",
+        dvl, mixture, gamma, iterations, across_max_m, along_max_m, point_distance_max_m, point_weight, along_weight, residual_scale_m);
+  }
 };
 
 /// What register_scan found.

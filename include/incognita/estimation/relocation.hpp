@@ -33,6 +33,14 @@ struct RelocationParams {
     require_non_negative("RelocationParams", "separation_m", separation_m);
     require(memory_scans >= 1.0, "RelocationParams", "memory_scans", memory_scans, ">= 1");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "share_min, share_margin, residual_ratio_max, separation_m, memory_scans",
+        share_min, share_margin, residual_ratio_max, separation_m, memory_scans);
+  }
 };
 
 /// How well a scan fits a map at a place: what registration made of it there, and what the belief says to that.
@@ -50,6 +58,12 @@ struct Streak {
   void note(bool holds) {
     scans = holds ? scans + 1 : 0;
     if (!holds) duration_s = 0.0;
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(scans, duration_s);
   }
 };
 
@@ -140,6 +154,13 @@ class Relocation {
     if (fits.empty()) return false;
     fit = fits[best];
     return true;
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("relocation", params_);
+    archive(usual_share_, usual_residual_m_, doubtful_, unusual_, scans_since_search_);
   }
 
  private:

@@ -28,6 +28,14 @@ struct ConsistencyParams {
     require(free_below < 0.0F, "ConsistencyParams", "free_below", static_cast<double>(free_below), "< 0");
     require(share_min >= 0.0 && share_min <= 1.0, "ConsistencyParams", "share_min", share_min, "in [0, 1]");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "beams_max, tolerance_m, occupied_above, free_below, beams_min, share_min",
+        beams_max, tolerance_m, occupied_above, free_below, beams_min, share_min);
+  }
 };
 
 /// How the beams of a scan agree with a map.

@@ -31,6 +31,12 @@ struct SearchWindow {
     require_non_negative("SearchWindow", "y_m", y_m);
     require_non_negative("SearchWindow", "yaw_rad", yaw_rad);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("x_m, y_m, yaw_rad", x_m, y_m, yaw_rad);
+  }
 };
 
 /// Poses of a lattice around a centre: centre + (i step_m, j step_m, k yaw_step_rad), within the window. `at`

@@ -21,6 +21,12 @@ struct SlamReport {
   CorrectionReport correction;  ///< of the filter
   ScanReport scan;              ///< of the map; all beams ignored when the correction was not trusted
   bool is_redrawn = false;      ///< the map was drawn again from all scans, after a loop was closed
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(correction, scan, is_redrawn);
+  }
 };
 
 /// Localisation and mapping, coupled as in Algorithm 1 of Seo et al.: the filter reads the map, then the map takes the scan at
@@ -58,6 +64,12 @@ class Slam {
 
   /// See Map::reserve.
   void reserve(const Box<Point<2>>& box_m) { map_.reserve(box_m); }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(filter_, given_, map_);
+  }
 
  private:
   /// O(scans kept): about 0.1 ms each.

@@ -44,6 +44,12 @@ struct Surface {
   [[nodiscard]] bool faces(const Point<Dim>& direction) const {
     return planar ? dot(normal, direction) < 0.0 : dot(view, direction) > 0.0;
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(count, piece, mean_m, scatter_m2, view, normal, planar);
+  }
 };
 
 /// Surfaces on a lattice of their own, apart from the belief's, kept only where beams ended. At most `sides_max` of
@@ -62,6 +68,14 @@ class SurfaceMap {
     double flatness = 0.03;            ///< planar: smallest eigenvalue <= this ratio * next + roughness_m2
     double roughness_m2 = 4e-5;        ///< allows for the noise of ranges
     double spread_min_m = 0.02;        ///< planar: sqrt of the next eigenvalue at least this
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields(
+          "cell_m, count_max, pool_radius_m, pool_offset_m, planar_count_min, flatness, roughness_m2, spread_min_m",
+          cell_m, count_max, pool_radius_m, pool_offset_m, planar_count_min, flatness, roughness_m2, spread_min_m);
+    }
   };
   static constexpr int sides_max = 3;  ///< a cell, as a wall may be seen from both
 
@@ -166,14 +180,59 @@ class SurfaceMap {
     }
   }
 
+  /// For archives of states, see docs/mission_file.md. Surfaces must be of one of `pieces` pieces of the map.
+  template <class Archive>
+  void archive_state(Archive& archive, std::size_t pieces = 1) {
+    archive.check("surfaces", params_);
+    slots_.archive_box(archive);
+    std::vector<Index<Dim>> places(cells_.size());
+    for (Offset at = 0; at < static_cast<Offset>(slots_.size()); ++at) {
+      if (slots_[at] >= 0) places[static_cast<std::size_t>(slots_[at])] = slots_.index_at(at);
+    }
+    archive(places, cells_, changed_);
+    if constexpr (Archive::is_loading) {
+      archive.require(places.size() == cells_.size(), "there are not as many surfaces as places of them");
+      size_ = 0;
+      for (std::size_t slot = 0; slot < cells_.size(); ++slot) {
+        archive.require(slots_.contains(places[slot]) && slots_.value(places[slot]) < 0, "a surface has no place of its own");
+        slots_.set(places[slot], static_cast<std::int32_t>(slot));
+        for (const Surface<Dim>& surface : cells_[slot].sides) {
+          if (surface.count == 0) break;
+          ++size_;
+          archive.require(surface.count > 0 && surface.piece >= 0 && static_cast<std::size_t>(surface.piece) < pieces,
+                          "a surface is of no piece of the map");
+        }
+      }
+      for (const Changed& changed : changed_) {
+        archive.require(slots_.value(changed.index) >= 0 && changed.side >= 0 && changed.side < sides_max, "a surface that grew is not there");
+      }
+    }
+  }
+
  private:
   struct Cell {
     std::array<Surface<Dim>, sides_max> sides;
     std::array<int, sides_max> refreshed_at{};
+
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      int used = 0;
+      while (used < sides_max && sides[static_cast<std::size_t>(used)].count != 0) ++used;
+      archive(used);
+      archive.require(used >= 0 && used <= sides_max, "a cell has too many surfaces");
+      for (int side = 0; side < used; ++side) {
+        archive(sides[static_cast<std::size_t>(side)], refreshed_at[static_cast<std::size_t>(side)]);
+      }
+    }
   };
   struct Changed {
     Index<Dim> index;
     int side;
+
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(index, side);
+    }
   };
 
   /// The cell, made if it is not there.

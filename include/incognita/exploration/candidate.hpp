@@ -29,6 +29,13 @@ struct Candidate {
 
   /// Where the path ends, in the map's frame. The path must not be empty.
   [[nodiscard]] const Eigen::Vector2d& goal_m() const { return path.points_m().back(); }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(frontier_m, frontier, viewpoint, path, gain_nats, information, navigation_cost, utility);
+    archive.require(!path.empty(), "a candidate has no path");
+  }
 };
 
 /// Scratch of evaluate_candidates, kept from one call to the next.

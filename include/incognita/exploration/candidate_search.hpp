@@ -85,6 +85,12 @@ class CandidateSearch {
     return candidates;
   }
 
+  /// For archives of states, see docs/mission_file.md: what ways() knows when no search is under way, see TravelCostField.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(ways_);
+  }
+
  private:
   void shut_passages(const OccupancyGrid<2>& occupancy, const SetAsidePlaces& shut, const TravelParams& params) {
     const auto hard_m = static_cast<float>(params.clearance_hard_m());

@@ -45,6 +45,12 @@ struct Decision {
   [[nodiscard]] const Candidate* chosen() const {
     return stopped || candidates.empty() ? nullptr : &candidates.front();
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(time_s, candidates, stopped);
+  }
 };
 
 /// Composes a map, an entropy and an estimator into an exploring robot (Seo et al., Algorithm 1). In a loop: move with each
@@ -217,8 +223,51 @@ class Explorer {
   [[nodiscard]] const ExplorerParams& params() const { return params_; }  ///< as given
   [[nodiscard]] double time_s() const { return time_s_; }  ///< the sum of all moves' durations
 
+  /// For archives of states, see docs/mission_file.md. Everything that goes on from one call to the next is in the state; the rest is
+  /// made again from it.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("explorer", params_);
+    archive.check("entropy", entropy_);
+    archive(slam_);
+    occupancy_.archive_state(archive, map());
+    archive(learned_, closed_, search_, set_aside_, chosen_, retreats_, shut_passages_, last_scan_, decision_);
+    bool retreats = retreat_.has_value();
+    archive(retreats);
+    if constexpr (Archive::is_loading) {
+      closed_.grow_to_include(occupancy_.grid().box());
+      frontier_.rebuild(occupancy_, closed_bits());
+      follower_ = PathFollower({}, params_.follow);
+      retreat_.reset();
+      if (retreats) retreat_.emplace(belief().pose, Scan<2>(BeamPattern<2>{}), params_.guard, params_.retreat);
+    }
+    if (retreats) archive(*retreat_);
+    archive(follower_, reached_, trail_, failed_, must_decide_, path_was_clear_, uncertain_, knows_floor_, is_paused_, is_returning_,
+            paused_s_, goal_since_s_, way_max_m_, asked_s_, learned_then_, time_s_, found_s_, unblocked_s_);
+    if constexpr (Archive::is_loading) archive.require(lies_in_map(), "a cell, a place or a path lies far outside of the map");
+  }
+
  private:
   using Cell = typename MapType::CellType;
+
+  /// Whether all that was decided is where the map is, or not far from there: what is done with it costs as much as it is long.
+  [[nodiscard]] bool lies_in_map() const {
+    const IndexBox<2> box = map().grid().box().padded(1000);
+    const auto holds_cells = [&](const std::vector<Index<2>>& cells) {
+      return std::all_of(cells.begin(), cells.end(), [&](const Index<2>& cell) { return box.contains(cell); });
+    };
+    const auto holds_path = [&](const Polyline& path) {
+      return std::all_of(path.points_m().begin(), path.points_m().end(), [&](const Eigen::Vector2d& point_m) {
+        const Eigen::Vector2d cells = map().lattice().to_cells(point_m);
+        return box.lower[0] <= cells[0] && cells[0] <= box.upper[0] && box.lower[1] <= cells[1] && cells[1] <= box.upper[1];
+      });
+    };
+    return holds_cells(trail_) && holds_cells(uncertain_) && (reached_.empty() || box.contains(reached_)) &&
+           holds_path(follower_.path()) && (decision_.chosen() == nullptr || !follower_.path().empty()) &&
+           std::all_of(decision_.candidates.begin(), decision_.candidates.end(), [&](const Candidate& candidate) {
+             return holds_cells(candidate.frontier) && box.contains(candidate.viewpoint) && holds_path(candidate.path);
+           });
+  }
 
   void rebuild_layers() {
     occupancy_.rebuild(map());

@@ -82,6 +82,18 @@ struct ExplorerParams {
     require(duration_max_s > 0.0, "ExplorerParams", "duration_max_s", duration_max_s, "> 0");
     require(threads >= 0, "ExplorerParams", "threads", threads, ">= 0");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "thresholds, frontier, travel, follow, guard, retreat, gain, set_aside, uncertainty, area, strategy, information, navigation, "
+        "travel_offset_m, candidates_max, visibility_tolerance_m, information_min_m2, gain_min_cells, decision_interval_s, "
+        "blocked_max_s, position_sigma_max_m, lost_max_s",
+        thresholds, frontier, travel, follow, guard, retreat, gain, set_aside, uncertainty, area, strategy, information, navigation,
+        travel_offset_m, candidates_max, visibility_tolerance_m, information_min_m2, gain_min_cells, decision_interval_s, blocked_max_s,
+        position_sigma_max_m, lost_max_s);
+  }
 };
 
 }  // namespace incognita

@@ -37,6 +37,12 @@ struct GainParams {
     require_positive("GainParams", "speed_m_per_s", speed_m_per_s);
     require_positive("GainParams", "scan_rate_hz", scan_rate_hz);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("pose_spacing_m, beams, range_max_m, speed_m_per_s, scan_rate_hz", pose_spacing_m, beams, range_max_m, speed_m_per_s, scan_rate_hz);
+  }
 };
 
 /// Scratch of one thread, kept from one evaluation to the next.

@@ -36,6 +36,12 @@ struct SetAsideParams {
     require_positive("SetAsideParams", "watch_radius_m", watch_radius_m);
     require(change_cells_min >= 1, "SetAsideParams", "change_cells_min", change_cells_min, ">= 1");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("radius_m, watch_radius_m, change_cells_min", radius_m, watch_radius_m, change_cells_min);
+  }
 };
 
 /// A goal that could not be reached, or that told nothing new when it was, is not tried again until the map around it
@@ -62,10 +68,22 @@ class SetAsidePlaces {
     return false;
   }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("set_aside", params_);
+    archive(places_);
+  }
+
  private:
   struct Place {
     Eigen::Vector2d position_m;
     int known_cells;
+
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(position_m, known_cells);
+    }
   };
 
   SetAsideParams params_;

@@ -25,6 +25,14 @@ struct FrontierParams {
     require_non_negative("FrontierParams", "length_min_m", length_min_m);
     require_positive("FrontierParams", "length_max_m", length_max_m);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "ignore_unknown_near_walls, unknown_adjacency, group_adjacency, length_min_m, length_max_m",
+        ignore_unknown_near_walls, unknown_adjacency, group_adjacency, length_min_m, length_max_m);
+  }
 };
 
 namespace detail {

@@ -24,6 +24,12 @@ struct UncertaintyFrontierParams {
     require_non_negative("UncertaintyFrontierParams", "obstacle_distance_min_m", obstacle_distance_min_m);
     groups.validate();
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("gradient_min_m, obstacle_distance_min_m, groups", gradient_min_m, obstacle_distance_min_m, groups);
+  }
 };
 
 /// The cells with U < U_beta at which the gradient of min(U, U_beta) is longer than gradient_min_m, that are not near an

@@ -33,6 +33,12 @@ struct Box {
     return equal(a.lower, b.lower) && equal(a.upper, b.upper);
   }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(lower, upper);
+  }
+
   /// This box with `margin` more on every side.
   [[nodiscard]] Box padded(typename Vector::Scalar margin) const {
     Box larger = *this;

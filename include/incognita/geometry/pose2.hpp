@@ -61,6 +61,12 @@ struct Pose2 {
   [[nodiscard]] bool is_finite() const {
     return std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(yaw_rad);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(x_m, y_m, yaw_rad);
+  }
 };
 
 /// "(x, y, yaw)" in metres and radians, for messages.

@@ -67,6 +67,12 @@ class BasicCellBits {
   [[nodiscard]] const Grid<Word, Dim>& tiles() const { return tiles_; }
   [[nodiscard]] Grid<Word, Dim>& tiles() { return tiles_; }  ///< to be written by whoever knows their layout
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(tiles_);
+  }
+
  private:
   Grid<Word, Dim> tiles_;
 };

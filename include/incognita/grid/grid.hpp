@@ -105,7 +105,36 @@ class Grid {
     return true;
   }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive_box(archive);
+    archive.each(values_);
+  }
+
+  /// The same of a grid whose values can be found again: when loading, each is the fill value.
+  template <class Archive>
+  void archive_box(Archive& archive) {
+    IndexBox<Dim> box = box_;
+    archive(box);
+    if constexpr (Archive::is_loading) {
+      archive.require(is_within(box, archive_reach), "a grid reaches too far");
+      archive.claim(cell_count(box), sizeof(Value));
+      clear_to(box);
+    }
+  }
+
  private:
+  /// So far from index 0 nobody's arithmetic overflows.
+  static constexpr int archive_reach = 1 << 30;
+
+  [[nodiscard]] static bool is_within(const IndexBox<Dim>& box, int reach) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      if (box.lower[axis] < -reach || box.upper[axis] > reach || box.lower[axis] > box.upper[axis]) return false;
+    }
+    return true;
+  }
+
   /// The cells of a box, or cell_count_max + 1 when there are more.
   [[nodiscard]] static std::int64_t cell_count(const IndexBox<Dim>& box) {
     if (box.empty()) return 0;

@@ -68,12 +68,28 @@ class DriftGraph {
     return twists;
   }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(bodies_, links_);
+    archive.require(bodies_ >= 0, "there are fewer bodies than none");
+    for (const Link& link : links_) {
+      archive.require(link.from >= 0 && link.from < bodies_ && link.to >= 0 && link.to < bodies_ && link.to != link.from,
+                      "a link is not between two bodies");
+    }
+  }
+
  private:
   struct Link {
     int from;
     int to;
     Eigen::Matrix3d information;
     Eigen::Vector3d vector;
+
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(from, to, information, vector);
+    }
   };
 
   /// The lower half of a symmetric matrix is enough.

@@ -69,6 +69,25 @@ class KeptScans {
     return farthest_m;
   }
 
+  /// For archives of states, see docs/mission_file.md. Scans must be tied to one of `pieces` pieces of the map.
+  template <class Archive>
+  void archive_state(Archive& archive, std::size_t pieces) {
+    std::size_t patterns = patterns_.size();
+    archive(stride_, seen_, patterns);
+    if constexpr (Archive::is_loading) {
+      archive.claim(patterns, sizeof(Scan<2>));
+      patterns_.assign(patterns, Scan<2>(BeamPattern<2>{}));
+    }
+    for (Scan<2>& pattern : patterns_) archive(pattern);
+    archive(kept_);
+    archive.require(stride_ >= 1 && kept_.size() <= scans_max_, "more scans are kept than may be");
+    for (const Kept& kept : kept_) {
+      archive.require(kept.pattern < patterns_.size() && kept.ranges_m.size() == patterns_[kept.pattern].size(),
+                      "a scan that was kept has not one range a beam");
+      archive.require(kept.piece >= 0 && static_cast<std::size_t>(kept.piece) < pieces, "a scan that was kept is of no piece of the map");
+    }
+  }
+
  private:
   struct Kept {
     PoseBelief belief;
@@ -76,6 +95,11 @@ class KeptScans {
     int piece;
     std::size_t pattern;
     std::vector<float> ranges_m;
+
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(belief, twist, piece, pattern, ranges_m);
+    }
   };
 
   [[nodiscard]] std::size_t pattern_of(const Scan<2>& scan) {

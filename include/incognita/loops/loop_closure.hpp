@@ -59,6 +59,14 @@ class LoopClosure {
       require_positive("LoopClosure", "redraw_shift_m", redraw_shift_m);
       require(scans_max >= 2, "LoopClosure", "scans_max", scans_max, ">= 2");
     }
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields(
+          "closes_loops, age_share_min, age_gap_pieces, pieces_between_solutions, solution_shift_m, redraw_shift_m, scans_max",
+          closes_loops, age_share_min, age_gap_pieces, pieces_between_solutions, solution_shift_m, redraw_shift_m, scans_max);
+    }
   };
 
   /// What a filter knows when a piece is born.
@@ -151,6 +159,17 @@ class LoopClosure {
 
   [[nodiscard]] const KeptScans& kept() const { return kept_; }  ///< the scans to draw the belief from
   [[nodiscard]] const DriftGraph& graph() const { return graph_; }  ///< the pieces of the map and what ties them
+
+  /// For archives of states, see docs/mission_file.md. `pieces` is how many pieces the map has.
+  template <class Archive>
+  void archive_state(Archive& archive, std::size_t pieces) {
+    archive.check("loops", params_);
+    archive(graph_);
+    kept_.archive_state(archive, pieces);
+    archive(step_covariance_, step_jump_, solved_at_, is_solution_due_, is_redraw_due_, redraws_);
+    archive.require(static_cast<std::size_t>(graph_.bodies()) <= pieces, "there are more bodies than pieces of the map");
+    archive.require(solved_at_ >= 0 && solved_at_ <= graph_.bodies(), "loops were solved by a piece that is not there");
+  }
 
  private:
   /// Surfaces of the pieces in [first, end), where they are now known to be.

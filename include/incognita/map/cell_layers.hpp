@@ -48,6 +48,29 @@ struct CellLayers {
   }
 
   /// Nothing is changed any more. O(tiles changed).
+  /// Nothing is changed any more. O(tiles changed).
+  template <class Archive>
+  void archive_state(Archive& archive, const IndexBox<Dim>& box) {
+    archive(written, changed_tiles);
+    if constexpr (Archive::is_loading) {
+      archive.require(written.has_room_for(box), "the bits of a map are not of its cells");
+      archive.claim(written.tiles().size(), 3 * sizeof(CellBits::Word));
+      for (CellBits* layer : {&heeding, &blocked, &changed}) layer->tiles().clear_to(written.tiles().box());
+    }
+    for (const Index<Dim>& tile : changed_tiles) {
+      if constexpr (Archive::is_loading) archive.require(changed.tiles().contains(tile), "a change lies outside of the map");
+      archive(changed.tiles()[changed.tiles().offset_of(tile)]);
+    }
+    if constexpr (!Archive::is_loading) return;
+    const auto is_in_box = [&](const CellBits& layer) {
+      for (Offset place = 0; place < static_cast<Offset>(layer.tiles().size()); ++place) {
+        if ((layer.tiles()[place] & ~cells_of_tile(layer.tiles().index_at(place), box)) != 0) return false;
+      }
+      return true;
+    };
+    archive.require(is_in_box(written) && is_in_box(changed), "bits are set outside of the map");
+  }
+
   void forget_changes() {
     for (const Index<Dim>& tile : changed_tiles) changed.tiles()[changed.tiles().offset_of(tile)] = 0;
     changed_tiles.clear();

@@ -30,6 +30,16 @@ class LearnedCells {
 
   [[nodiscard]] std::size_t count() const { return count_; }  ///< how many; never falls
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(known_);
+    if constexpr (Archive::is_loading) {
+      count_ = 0;
+      for (const CellBits::Word known : known_.tiles().values()) count_ += static_cast<std::size_t>(std::popcount(known));
+    }
+  }
+
  private:
   CellBits known_;
   std::size_t count_ = 0;

@@ -31,6 +31,12 @@ struct MapParams {
   double hit_push_cells = 0.5;
   /// A predicted ray ends in the first cell with log-odds above this; all other cells, unknown ones too, are transparent.
   float blocked_above = 0.4F;
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("resolution_m, hit_push_cells, blocked_above", resolution_m, hit_push_cells, blocked_above);
+  }
 };
 
 /// The map's frame is that of the poses it is given; its lattice starts at the origin. The map grows as scans ask.
@@ -145,6 +151,22 @@ class Map {
     grow_to_include(lattice().cells_of(box_m));
   }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("map", params_);
+    archive.check("cells", cell_);
+    archive(grid_, stamp_, update_count_);
+    if constexpr (Archive::is_loading) {
+      archive.require(stamp_ <= stamp_last, "the stamp of a map is too large");
+      for (const State& state : grid_.values()) archive.require(std::isfinite(Cell::log_odds(state)), "a cell's log-odds are not finite");
+    }
+    if constexpr (Dim == 2) {
+      layers_.archive_state(archive, grid_.box());
+      if constexpr (Archive::is_loading) find_layers();
+    }
+  }
+
  private:
   struct NoLayers {
     explicit NoLayers(const Lattice<Dim>&) {}
@@ -194,6 +216,24 @@ class Map {
   void grow_to_include(const IndexBox<Dim>& cells) {
     grid_.grow_to_include(cells);
     if constexpr (Dim == 2) layers_.grow_to_include(grid_.box());
+  }
+
+  /// What is blocked and what ignores passes, of what was written.
+  void find_layers() {
+    for_each_tile_of(grid_.box(), [&](const Index<2>& tile) {
+      const Offset place = layers_.written.tiles().offset_of(tile);
+      const CellBits::Word written = layers_.written.tiles()[place];
+      if (written == 0) return;
+      const auto states = states_of(tile);
+      CellBits::Word blocking = 0;
+      CellBits::Word ignoring = 0;
+      for (CellBits::Word left = written; left != 0; left &= left - 1U) {
+        const int bit = std::countr_zero(left);
+        blocking |= static_cast<CellBits::Word>(Cell::log_odds(states(bit)) > params_.blocked_above) << bit;
+        ignoring |= static_cast<CellBits::Word>(cell_.ignores_passes(states(bit))) << bit;
+      }
+      layers_.assign(place, written, blocking, OncePolicy<Cell> ? 0 : ignoring);  // what settles for a scan heeds the next
+    });
   }
 
   /// Stamps stay clear of the upper end of their type by as many scans as a prediction may add (Overlay). When they

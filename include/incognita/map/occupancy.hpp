@@ -55,6 +55,12 @@ struct OccupancyThresholds {
     require(occupied_above > 0.0F, "OccupancyThresholds", "occupied_above", static_cast<double>(occupied_above),
             "> 0");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("free_below, occupied_above", free_below, occupied_above);
+  }
 };
 
 }  // namespace incognita

@@ -46,13 +46,11 @@ class OccupancyLayer {
   template <CellPolicy Cell>
   void rebuild(const Map<Cell, Dim>& map) {
     OccupancyLayer anew(map.lattice(), thresholds_);
-    const IndexBox<Dim>& box = map.grid().box();
-    for_each_tile_of(box, [&](const Index<Dim>& tile) { anew.classify_tile(map, tile, cells_of_tile(tile, box)); });
+    anew.classify_all(map);
     // What was known may not be any more.
     for_each_tile_of(grid_.box(), [&](const Index<Dim>& tile) {
       if ((free_.tiles().value(tile) | occupied_.tiles().value(tile)) != 0) anew.changed_tiles_.push_back(tile);
     });
-    anew.update_count_ = map.update_count();
     *this = std::move(anew);
   }
 
@@ -63,7 +61,29 @@ class OccupancyLayer {
   /// The tiles in which a cell may have become something else by the last follow or rebuild.
   [[nodiscard]] const std::vector<Index<Dim>>& changed_tiles() const { return changed_tiles_; }
 
+  /// For archives of states, see docs/mission_file.md: of a layer that follows `map`, which is there already.
+  template <class Archive, CellPolicy Cell>
+  void archive_state(Archive& archive, const Map<Cell, Dim>& map) {
+    grid_.archive_box(archive);
+    if constexpr (Archive::is_loading) {
+      const OccupancyGrid<Dim> loaded = grid_;
+      *this = OccupancyLayer(grid_.lattice(), thresholds_);
+      grid_ = loaded;
+      free_.grow_to_include(grid_.box());
+      occupied_.grow_to_include(grid_.box());
+      classify_all(map);
+      changed_tiles_.clear();
+    }
+  }
+
  private:
+  template <class MapType>
+  void classify_all(const MapType& map) {
+    const IndexBox<Dim>& box = map.grid().box();
+    for_each_tile_of(box, [&](const Index<Dim>& tile) { classify_tile(map, tile, cells_of_tile(tile, box)); });
+    update_count_ = map.update_count();
+  }
+
   template <class MapType>
   void classify_tile(const MapType& map, const Index<Dim>& tile, CellBits::Word cells) {
     const auto states = map.states_of(tile);

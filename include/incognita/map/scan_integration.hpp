@@ -23,6 +23,12 @@ namespace incognita {
 struct ScanReport {
   std::size_t beams_used = 0;     ///< hits, and beams that met nothing
   std::size_t beams_ignored = 0;  ///< NaN, infinite, negative or out of range
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(beams_used, beams_ignored);
+  }
 };
 
 namespace detail {

@@ -77,6 +77,12 @@ class MeanNees {
   /// Likewise without a unit, of position and heading.
   [[nodiscard]] double pose() const { return count_ == 0 ? 0.0 : pose_sum_ / static_cast<double>(count_); }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(position_sum_, pose_sum_, count_);
+  }
+
  private:
   double position_sum_ = 0.0;
   double pose_sum_ = 0.0;

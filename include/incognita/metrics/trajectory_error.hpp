@@ -39,6 +39,12 @@ class TrajectoryError {
   [[nodiscard]] double translation_max_m() const { return translation_max_m_; }  ///< the largest distance
   [[nodiscard]] double heading_rmse_rad() const { return std::sqrt(mean(squared_turns_rad2_)); }  ///< of the turns between them
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(distances_m_, squared_distances_m2_, squared_turns_rad2_, translation_max_m_, count_);
+  }
+
  private:
   [[nodiscard]] double mean(double sum) const {
     return count_ == 0 ? 0.0 : sum / static_cast<double>(count_);

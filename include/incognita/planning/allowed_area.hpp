@@ -49,6 +49,12 @@ struct AllowedArea {
     for (Polygon& polygon : area.no_go) transform(polygon);
     return area;
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("bounds, no_go", bounds, no_go);
+  }
 };
 
 }  // namespace incognita

@@ -37,6 +37,14 @@ struct CollisionGuardParams {
     require_positive("CollisionGuardParams", "deceleration_m_per_s2", deceleration_m_per_s2);
     require_positive("CollisionGuardParams", "speed_min_m_per_s", speed_min_m_per_s);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "robot_radius_m, margin_m, creep_margin_m, creep_speed_m_per_s, reaction_time_s, deceleration_m_per_s2, speed_min_m_per_s",
+        robot_radius_m, margin_m, creep_margin_m, creep_speed_m_per_s, reaction_time_s, deceleration_m_per_s2, speed_min_m_per_s);
+  }
 };
 
 /// How far a point can travel from the origin, along its x axis at first and then on a circle of the given

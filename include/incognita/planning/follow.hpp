@@ -46,6 +46,16 @@ struct FollowParams {
             "turn_in_place_rad", turn_in_place_rad, "in (0, pi / 2)");
     require_positive("FollowParams", "goal_tolerance_m", goal_tolerance_m);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "speed_max_m_per_s, turn_rate_max_rad_per_s, deceleration_m_per_s2, lookahead_m, lookahead_min_m, deviation_max_m, "
+        "aside_max_m, turn_in_place_rad, goal_tolerance_m",
+        speed_max_m_per_s, turn_rate_max_rad_per_s, deceleration_m_per_s2, lookahead_m, lookahead_min_m, deviation_max_m, aside_max_m,
+        turn_in_place_rad, goal_tolerance_m);
+  }
 };
 
 /// Pure pursuit (Coulter 1992) of one path. It brakes before corners, turns in place where the path lies far
@@ -82,6 +92,14 @@ class PathFollower {
   [[nodiscard]] double progress_m() const { return progress_m_; }
 
   [[nodiscard]] const Polyline& path() const { return path_; }  ///< as given
+
+  /// For archives of states, see docs/mission_file.md. The parameters stay as they are.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(path_, progress_m_, turning_, finished_);
+    archive.require(finished_ || !path_.empty(), "there is no path to follow");
+    archive.require(progress_m_ >= 0.0 && progress_m_ <= path_.length_m(), "a path was followed beyond its end");
+  }
 
  private:
   /// What is around the robot, in the path's frame, and how far its centre keeps from it.

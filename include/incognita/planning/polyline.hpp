@@ -75,6 +75,13 @@ class Polyline {
     return best_along_m;
   }
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(points_m_);
+    if constexpr (Archive::is_loading) *this = Polyline(std::move(points_m_));
+  }
+
  private:
   std::vector<Eigen::Vector2d> points_m_;
   std::vector<double> arc_m_;

@@ -39,6 +39,14 @@ struct RetreatParams {
     require(headings >= 4, "RetreatParams", "headings", headings, ">= 4");
     require(blocked_scans_max >= 0, "RetreatParams", "blocked_scans_max", blocked_scans_max, ">= 0");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "distance_m, speed_m_per_s, turn_rate_rad_per_s, aim_rad, look_m, headings, blocked_scans_max",
+        distance_m, speed_m_per_s, turn_rate_rad_per_s, aim_rad, look_m, headings, blocked_scans_max);
+  }
 };
 
 /// The turn, in (-pi, pi], to the heading in which a disc can drive straight for longest, up to look_m; among equals, the
@@ -107,6 +115,12 @@ class Retreat {
     blocked_scans_ = allowed.speed_m_per_s == 0.0 ? blocked_scans_ + 1 : 0;
     if (blocked_scans_ > params_.blocked_scans_max) choose_heading(T_map_robot, scan);
     return allowed;
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(from_m_, heading_rad_, blocked_scans_);
   }
 
  private:

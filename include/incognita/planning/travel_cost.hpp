@@ -57,6 +57,14 @@ struct TravelParams {
     require(std::isfinite(escape_cost_per_m) && escape_cost_per_m > 1.0 + clearance_weight, "TravelParams",
             "escape_cost_per_m", escape_cost_per_m, "finite and > 1 + clearance_weight");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields(
+        "robot_radius_m, margin_m, clearance_soft_m, clearance_weight, escape_radius_m, escape_cost_per_m",
+        robot_radius_m, margin_m, clearance_soft_m, clearance_weight, escape_radius_m, escape_cost_per_m);
+  }
 };
 
 /// The cheapest ways from one place to all others: 8-connected (or 4-, see restart), never cutting a corner, through free cells
@@ -176,6 +184,19 @@ class TravelCostField {
 
   [[nodiscard]] const Eigen::Vector2d& start_m() const { return start_m_; }  ///< where all ways begin
   [[nodiscard]] const Lattice<2>& lattice() const { return cost_m_.lattice(); }  ///< of the cells
+
+  /// For archives of states, see docs/mission_file.md: where the robot has clearance and what a metre costs. A field that was loaded
+  /// reaches nothing until restart.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(start_m_, proper_max_, passable_max_, cost_per_m_);
+    if constexpr (Archive::is_loading) {
+      archive.claim(cost_per_m_.size(), sizeof(float) + 1);
+      no_stay_.clear();
+      cost_m_.clear_to(cost_per_m_.box());
+      step_to_.clear_to(cost_per_m_.box());
+    }
+  }
 
  private:
   static constexpr float infinite = std::numeric_limits<float>::infinity();

@@ -21,6 +21,12 @@ struct DvlVariances {
     require(std::isfinite(unoccupied_m2) && unoccupied_m2 > occupied_m2, "DvlVariances", "unoccupied_m2",
             unoccupied_m2, "finite and > occupied_m2");
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("occupied_m2, unoccupied_m2", occupied_m2, unoccupied_m2);
+  }
 };
 
 /// The natural logarithm of the normal density with variance `variance_m2` at `residual_m`, in ln(1/m).

@@ -35,6 +35,12 @@ struct LineSegmentParams {
     require(points_min >= 5, "LineSegmentParams", "points_min", points_min, ">= 5");
     require_positive("LineSegmentParams", "noise_m", noise_m);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("gap_max_m, deviation_max_m, length_min_m, points_min, noise_m", gap_max_m, deviation_max_m, length_min_m, points_min, noise_m);
+  }
 };
 
 /// Fits a line to the end points [first, last] by total least squares; the variance is that of the slope of a regression,

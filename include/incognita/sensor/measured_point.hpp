@@ -19,6 +19,12 @@ struct RangeBearingNoise {
     require_non_negative("RangeBearingNoise", "range_m", range_m);
     require_non_negative("RangeBearingNoise", "bearing_rad", bearing_rad);
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("range_m, bearing_rad", range_m, bearing_rad);
+  }
 };
 
 /// A point in the pose's frame with its covariance.

@@ -32,6 +32,12 @@ struct BeamPattern {
       require(std::abs(length - 1.0) <= 1e-6, "BeamPattern", "length of a direction", length, "1 within 1e-6");
     }
   }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(directions, range_min_m, range_max_m);
+  }
 };
 
 /// Beams in the plane, the first at first_rad from the sensor's x axis, counter-clockwise for increment_rad > 0. Throws
@@ -109,6 +115,14 @@ class Scan {
   /// Where a beam ends in the sensor's frame, its range lengthened by extra_m.
   [[nodiscard]] Point<Dim> end_point_m(std::size_t beam, double extra_m = 0.0) const {
     return scaled(direction(beam), range_m(beam) + extra_m);
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(beams_, ranges_m_);
+    if constexpr (Archive::is_loading) beams_.validate();
+    archive.require(ranges_m_.size() == beams_.directions.size(), "a scan has not one range a beam");
   }
 
  private:

@@ -16,6 +16,12 @@ namespace incognita {
 struct OdometryParams {
   double speed_sigma_m_per_s = 0.05;        ///< >= 0
   double turn_rate_sigma_rad_per_s = 0.02;  ///< >= 0
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("speed_sigma_m_per_s, turn_rate_sigma_rad_per_s", speed_sigma_m_per_s, turn_rate_sigma_rad_per_s);
+  }
 };
 
 /// Measures the twist that a robot really made plus normal noise. So odometry knows when a wall stops the
@@ -34,6 +40,13 @@ class Odometry {
     const double turn_rate_rad_per_s =
         random_.normal(twist.turn_rate_rad_per_s, params_.turn_rate_sigma_rad_per_s);
     return unicycle_motion({speed_m_per_s, turn_rate_rad_per_s}, duration_s);
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("odometry", params_);
+    archive(random_);
   }
 
  private:

@@ -51,6 +51,12 @@ class RangeSensor {
 
   [[nodiscard]] const Scan<2>& scan() const { return scan_; }  ///< the last one measured
 
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(random_, scan_);
+  }
+
  private:
   double range_sigma_m_;
   Random random_;

@@ -21,6 +21,12 @@ struct RobotParams {
   double radius_m = 0.2;                 ///< >= 0
   double speed_max_m_per_s = 1.0;        ///< > 0, forwards and backwards
   double turn_rate_max_rad_per_s = 1.0;  ///< > 0
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Fields>
+  void list_fields(Fields& fields) const {
+    fields("radius_m, speed_max_m_per_s, turn_rate_max_rad_per_s", radius_m, speed_max_m_per_s, turn_rate_max_rad_per_s);
+  }
 };
 
 /// A unicycle under a disc. What would take it into a wall is carried out up to the contact; it does not
@@ -73,6 +79,14 @@ class Robot {
     in_contact_ =
         is_stopped || (in_contact_ && !world.disc_is_clear(position, params_.radius_m + contact_end_m));
     return {std::copysign(driven_m / duration_s, twist.speed_m_per_s), twist.turn_rate_rad_per_s};
+  }
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive.check("robot", params_);
+    archive(T_world_robot_, distance_m_, collisions_, in_contact_);
+    archive.require(T_world_robot_.is_finite(), "the robot's pose is not finite");
   }
 
  private:

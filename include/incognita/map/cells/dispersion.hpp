@@ -39,6 +39,14 @@ class BasicDispersion {
     double pass = -0.4;           ///< to the log-odds by a pass, in [-31, -1/512]
     double log_odds_min = -10.0;  ///< in [-31, -1/512]
     double log_odds_max = 10.0;   ///< in [1/512, 31]
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields(
+          "sigma_max_m, box_side_m, kappa, noise, hit, pass, log_odds_min, log_odds_max",
+          sigma_max_m, box_side_m, kappa, noise, hit, pass, log_odds_min, log_odds_max);
+    }
   };
 
   static constexpr int occupancy_zero = 1 << 14;  ///< what log-odds 0 of occupancy is stored as
@@ -49,6 +57,18 @@ class BasicDispersion {
     ScanStamp seen_by = 0;                          ///< the last scan that updated the cell
     std::uint16_t occupancy : 15 = occupancy_zero;  ///< in steps of 1/512 of log-odds, from occupancy_zero
     bool is_explored : 1 = false;                   ///< whether a scan ever saw it
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      auto bits = static_cast<std::uint16_t>(occupancy | (is_explored ? 0x8000U : 0U));
+      archive(dispersion_log_odds, seen_by, bits);
+      if constexpr (Archive::is_loading) {
+        archive.require(std::isfinite(dispersion_log_odds), "a cell's dispersion is not finite");
+        occupancy = bits & 0x7FFFU;
+        is_explored = (bits & 0x8000U) != 0;
+      }
+    }
   };
 
   using Beam = typename View::Beam;  ///< the log-odds along a beam, by range

@@ -20,6 +20,12 @@ class LogOdds {
     float log_odds_min = -10.0F;  ///< < 0
     float log_odds_max = 10.0F;   ///< > 0
     bool hits_win = true;         ///< passes of a scan leave alone what the same scan hit
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields("hit, pass, log_odds_min, log_odds_max, hits_win", hit, pass, log_odds_min, log_odds_max, hits_win);
+    }
   };
 
   /// The cells of OctoMap: hit and pass are its 0.7 and 0.4 to two digits, the bounds its clamping thresholds (0.1192 and 0.971).
@@ -34,6 +40,12 @@ class LogOdds {
   struct State {
     float log_odds = 0.0F;  ///< natural; 0 is unknown
     ScanStamp hit_by = 0;   ///< the last scan that hit the cell
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(log_odds, hit_by);
+    }
   };
 
   struct Beam {};  ///< nothing: all beams are equal

@@ -40,6 +40,14 @@ class TBayes {
     float erosion_log_odds = 0.4F;       ///< robust: what a scan through a saturated cell takes, >= 0
     double erosion_residual_m = 0.6;     ///< robust: erosion only where the beam goes on for longer, >= 0 ...
     double erosion_residual_sigmas = 3;  ///< ... and for longer than this many standard deviations of the pose along the beam
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Fields>
+    void list_fields(Fields& fields) const {
+      fields(
+          "rule, dvl, hits_max, log_odds_min, log_odds_max, erosion_log_odds, erosion_residual_m, erosion_residual_sigmas",
+          rule, dvl, hits_max, log_odds_min, log_odds_max, erosion_log_odds, erosion_residual_m, erosion_residual_sigmas);
+    }
   };
 
   /// The paper's equation alone: no bounds, no erosion.
@@ -56,6 +64,12 @@ class TBayes {
     float log_odds = 0.0F;     ///< natural; 0 is unknown
     ScanStamp settled_by = 0;  ///< the last scan that hit or eroded the cell
     std::uint8_t hits = 0;     ///< N_a of (14)
+
+    /// For archives of states, see docs/mission_file.md.
+    template <class Archive>
+    void archive_state(Archive& archive) {
+      archive(log_odds, settled_by, hits);
+    }
   };
 
   /// ln N(r; 0, S) = offset - r^2 precision_half, for the two occupancies of the cell.
