@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "incognita/entropy/behavioral.hpp"
 #include "incognita/entropy/renyi.hpp"
@@ -18,6 +20,7 @@
 #include "incognita/io/floor_plan.hpp"
 #include "incognita/io/kth_xml.hpp"
 #include "incognita/io/polygons.hpp"
+#include "incognita/io/run_recorder.hpp"
 #include "incognita/loops/loop_closure.hpp"
 #include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/cells/log_odds.hpp"
@@ -26,6 +29,7 @@
 #include "kth_explorer/embedded_floor_plan.hpp"
 #include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
+#include "kth_explorer/parameters.hpp"
 #include "kth_explorer/results.hpp"
 #include "support/exploration_names.hpp"
 #include "support/output_folder.hpp"
@@ -144,9 +148,19 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   if (!options.quiet) report = [&](const ProgressRecord& p) { print_progress(p, options.duration_s); };
   const Pose2 T_world_start = simulator.T_start_world().inverse();
   const MissionParams mission{robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
-  const MissionRecord record = run_mission(explorer, simulator, floor, mission, report);
+  std::optional<RunRecorder> recorder;
+  if (options.records) {
+    RecordingSetup setup;
+    setup.parameters_json = parameters_json(explorer, options).dump();
+    setup.metric_names.assign(recorded_metrics.begin(), recorded_metrics.end());
+    setup.plan = simulator.world().plan();
+    setup.T_map_plan = simulator.T_start_world();
+    recorder.emplace(output.growing("recording.incognita"), explorer, simulator.scan(), std::move(setup));
+  }
+  const MissionRecord record = run_mission(explorer, simulator, floor, mission, report, recorder ? &*recorder : nullptr);
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
+  if (recorder) recorder->ended({std::string(to_string(record.stop_reason)), metrics.dump()});
   write_file_atomically(output.staged("metrics.json"), metrics.dump(2) + "\n");
   write_file_atomically(output.staged("decisions.csv"), decisions_csv(record));
   write_file_atomically(output.staged("progress.csv"), progress_csv(record));
@@ -168,7 +182,8 @@ void run(const Options& options) {
   const World floor = allowed_floor(world, area);
   const Pose2 T_world_start = start_pose(options, floor);
   examples::OutputFolder output(options.output, {"metrics.json", "decisions.csv", "progress.csv", "trajectory_estimated.tum",
-                                                 "trajectory_true.tum", "map.yaml", "map.png", "overview.png"});
+                                                 "trajectory_true.tum", "map.yaml", "map.png", "overview.png",
+                                                 "recording.incognita"});
   Simulator simulator(std::move(world), T_world_start, params, options.seed);
   const bool coupled = options.filter == "dvl-ekf";
   const auto explore_in = [&]<class Cell>(std::type_identity<Cell>) {

@@ -2,16 +2,19 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "incognita/exploration/explorer.hpp"
 #include "incognita/entropy/shannon.hpp"
+#include "incognita/io/run_recorder.hpp"
 #include "incognita/io/tum.hpp"
 #include "incognita/map/entropy_layer.hpp"
 #include "incognita/metrics/coverage.hpp"
@@ -49,6 +52,16 @@ struct ProgressRecord {
   double nees;  ///< NaN where the pose is known
   double distance_m;
 };
+
+/// What a recording of a mission has in each frame: those of a ProgressRecord, with how much the map has told instead of its entropy, which is
+/// known only in the end, when it is known how many cells it touches.
+inline constexpr std::array<const char*, 6> recorded_metrics{"explored_fraction", "information_bits", "position_error_m",
+                                                             "three_sigma_m",     "nees",             "distance_m"};
+
+[[nodiscard]] inline std::array<double, 6> recorded_values(const ProgressRecord& progress) {
+  return {progress.explored_fraction, progress.entropy_drop_nats / std::numbers::ln2, progress.position_error_m,
+          progress.three_sigma_m,     progress.nees,                                   progress.distance_m};
+}
 
 struct MissionParams {
   double robot_radius_m;
@@ -90,10 +103,12 @@ struct MissionRecord {
 };
 
 /// Drives `explorer` in `simulator` until it stops or duration_s is over, and then back if asked to. `floor` is what it is asked to
-/// explore. `report` is called once a simulated second of the exploration.
+/// explore. `report` is called once a simulated second of the exploration. `recorder` follows the explorer, the way back included, unless it is
+/// null.
 template <class Explorer>
 [[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, const incognita::World& floor,
-                                        const MissionParams& params, const std::function<void(const ProgressRecord&)>& report) {
+                                        const MissionParams& params, const std::function<void(const ProgressRecord&)>& report,
+                                        incognita::RunRecorder* recorder) {
   using namespace incognita;
   const Clock::time_point begin = Clock::now();
   const Pose2& T_start_world = simulator.T_start_world();
@@ -121,16 +136,26 @@ template <class Explorer>
                           is_estimated() ? position_nees(belief.pose, truth, belief.covariance) : not_a_number,
                           simulator.distance_m()};
   };
-  const auto observe_and_decide = [&] {
+  const auto recorded = [&] { return recorded_values(progress()); };
+  const auto observe = [&] {
     explorer.observe(simulator.scan());
     if (explorer.last_scan().is_redrawn) {
       information.rebuild(explorer.map());
     } else if (explorer.correction().trusted) {
       information.follow(explorer.map());
     }
+    if (recorder != nullptr) recorder->observed(explorer, simulator.scan(), simulator.T_start_robot(), recorded);
+  };
+  const auto decide = [&] {
+    if (!explorer.decide()) return false;
+    if (recorder != nullptr) recorder->decided(explorer);
+    return true;
+  };
+  const auto observe_and_decide = [&] {
+    observe();
     ++record.scans;
     const Clock::time_point start = Clock::now();
-    if (!explorer.decide()) return;
+    if (!decide()) return;
     if (const Candidate* chosen = explorer.decision().chosen()) {
       const auto& candidates = explorer.decision().candidates;
       record.decisions.push_back({simulator.time_s(), candidates.size(), chosen->goal_m(), chosen->gain_nats,
@@ -179,8 +204,8 @@ template <class Explorer>
     constexpr double longest_s = 3600.0;  // the explorer gives up long before
     explorer.return_to_start();
     const auto observe_and_go_on = [&] {
-      explorer.observe(simulator.scan());
-      explorer.decide();
+      observe();
+      static_cast<void>(decide());
       remember_poses();
     };
     examples::drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {});
@@ -188,6 +213,7 @@ template <class Explorer>
     record.return_distance_m = simulator.distance_m() - record.distance_m;
   }
   record.collisions = simulator.collisions();
+  if (recorder != nullptr) recorder->record(explorer, simulator.scan(), simulator.T_start_robot(), recorded);
   return record;
 }
 

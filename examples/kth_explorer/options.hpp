@@ -39,6 +39,7 @@ struct Options {
   double resolution_m = 0.1;
   int threads = 0;
   std::string output = "output/kth_explorer";
+  bool records = false;
   bool quiet = false;
 };
 
@@ -122,6 +123,7 @@ struct Options {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   app.add_option("--output", options.output, "folder for the results")->type_name("DIR")->capture_default_str();
+  app.add_flag("--record", options.records, "write recording.incognita as well, as the run goes: what is needed to look at it again");
   app.add_flag("--quiet", options.quiet, "print nothing but errors");
   app.parse(argc, argv);
 

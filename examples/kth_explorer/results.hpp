@@ -96,6 +96,7 @@ class CsvText {
   const ProgressRecord* const most = record.first_with_explored(0.9);
   json["time_to_90_percent_s"] = most == nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(most->time_s);
   json["distance_to_90_percent_m"] = most == nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(most->distance_m);
+  json["touched_cells"] = record.touched_cells;
   json["explored_area_m2"] = record.explored_fraction * record.floor_area_m2;
   json["wall_time_s"] = record.wall_time_s;
   json["real_time_factor"] = record.duration_s / record.wall_time_s;

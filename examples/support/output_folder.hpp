@@ -48,6 +48,14 @@ class OutputFolder {
     return staging_ / name;
   }
 
+  /// Where to write a file that is of use before it is complete: in the folder itself, as NAME.partial. It is there to stay when there is no
+  /// publish(), which gives it its name. Throws OutputError when the folder cannot be created.
+  [[nodiscard]] std::filesystem::path growing(const std::string& name) {
+    if (!is_staging_) create();
+    growing_.push_back(name);
+    return partial(name);
+  }
+
   /// Moves the staged files to their names and returns their paths, sorted. Throws OutputError when one
   /// cannot be moved.
   std::vector<std::filesystem::path> publish() {
@@ -57,12 +65,10 @@ class OutputFolder {
     for (const auto& entry : std::filesystem::directory_iterator(staging_)) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const std::filesystem::path& file : files) require_no_folder(folder_ / file.filename());
-    for (std::filesystem::path& file : files) {
-      const std::filesystem::path target = folder_ / file.filename();
-      std::filesystem::rename(file, target, error);
-      if (error) throw OutputError("cannot write " + target.string() + ": " + error.message());
-      file = target;
-    }
+    for (std::filesystem::path& file : files) file = moved(file, folder_ / file.filename());
+    for (const std::string& name : growing_) files.push_back(moved(partial(name), folder_ / name));
+    std::sort(files.begin(), files.end());
+    growing_.clear();
     std::filesystem::remove(staging_, error);
     is_staging_ = false;
     return files;
@@ -74,6 +80,15 @@ class OutputFolder {
     if (std::filesystem::is_directory(target, ignored)) {
       throw OutputError("cannot write " + target.string() + ": it is a folder");
     }
+  }
+
+  [[nodiscard]] std::filesystem::path partial(const std::string& name) const { return folder_ / (name + ".partial"); }
+
+  static std::filesystem::path moved(const std::filesystem::path& from, const std::filesystem::path& to) {
+    std::error_code error;
+    std::filesystem::rename(from, to, error);
+    if (error) throw OutputError("cannot write " + to.string() + ": " + error.message());
+    return to;
   }
 
   void create() {
@@ -102,6 +117,7 @@ class OutputFolder {
   std::filesystem::path folder_;
   std::filesystem::path staging_;
   std::vector<std::filesystem::path> created_;  // the deepest first
+  std::vector<std::string> growing_;
   bool is_staging_ = false;
 };
 

@@ -7,7 +7,7 @@
 /// - io/tum.hpp: read_tum and write_tum, trajectories
 /// - io/robot_log_file.hpp: read_robot_log, scans with odometry, by the file's name
 /// - io/intel_json.hpp, carmen_log.hpp, robot_log.hpp: read_intel_json (nlohmann/json) and read_carmen_log
-/// - io/recording_file.hpp: RecordingWriter and read_recording, runs to be looked at (zlib)
+/// - io/run_recorder.hpp, recording_file.hpp: RunRecorder and read_recording, runs to be looked at (zlib)
 /// - io/relations.hpp: read_relations, measured relations between poses
 /// - io/polygons.hpp: read_polygons, no-go areas
 /// - io/png.hpp, pgm.hpp, image.hpp: read_png and write_png (libpng), read_pgm and write_pgm
@@ -49,5 +49,6 @@
 #include "incognita/io/relations.hpp"
 #include "incognita/io/robot_log.hpp"
 #include "incognita/io/robot_log_file.hpp"
+#include "incognita/io/run_recorder.hpp"
 #include "incognita/io/text_lines.hpp"
 #include "incognita/io/tum.hpp"

@@ -52,7 +52,7 @@ struct RecordedFrame {
   std::vector<std::uint16_t> ranges;                                     ///< the scan, none or one a beam; range_units is nothing met
   std::vector<double> metrics;                                           ///< one a name of the setup; NaN where there is none
   std::vector<RecordedTile> tiles;
-  std::vector<std::int8_t> levels;                                       ///< log-odds by log_odds_step, rounded; 0 is unknown
+  std::vector<std::int8_t> levels;                                       ///< log-odds by log_odds_step, rounded away from 0
 };
 
 /// A way to go and see, as it was judged.
