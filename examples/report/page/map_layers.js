@@ -51,7 +51,7 @@ function drawBelief(context, scene) {
   context.transform(floor[2], floor[3], -floor[3], floor[2], floor[0], floor[1]);
   // Cells have edges, but those that are smaller than pixels must not fall between them.
   context.imageSmoothingEnabled = run.resolution_m * view.scale * scene.ratio < 1;
-  context.imageSmoothingQuality = 'high';
+  context.imageSmoothingQuality = run.resolution_m * view.scale * scene.ratio < 0.4 ? 'medium' : 'low';
   const cell = run.resolution_m;
   context.drawImage(belief.canvas, x * cell, y * cell, width * cell, height * cell);
 }
@@ -72,7 +72,7 @@ function drawPaths(context, scene) {
   if (run.hasTruth) {
     polyline(context, scene, run.columns.truth, 0, frame + 1, 3);
     context.strokeStyle = colors.truthBand;
-    context.lineWidth = 6;
+    context.lineWidth = 6 * markScale(scene.view);
     context.stroke();
   }
   polyline(context, scene, run.columns.pose, 0, frame + 1, 3);
@@ -85,7 +85,7 @@ function drawFrontiers(context, scene) {
   const { decision, run, view, colors } = scene;
   if (!decision) return;
   onPage(context, scene);
-  const size = Math.max(3, run.resolution_m * view.scale * 0.9);
+  const size = Math.max(4 * markScale(view) - 1, run.resolution_m * view.scale * 0.9);
   const squares = (extra, color) => {
     context.fillStyle = color;
     for (let i = 0; i < decision.frontier.length; i += 2) {
@@ -94,7 +94,7 @@ function drawFrontiers(context, scene) {
       context.fillRect(x - size / 2 - extra, y - size / 2 - extra, size + 2 * extra, size + 2 * extra);
     }
   };
-  squares(1, colors.frontierEdge);
+  squares(markScale(view), colors.frontierEdge);
   squares(0, colors.frontier);
 }
 
@@ -112,32 +112,37 @@ function drawCandidates(context, scene) {
     const isChosen = i === 0;
     polyline(context, scene, path, 0, path.length / 2, 2);
     context.setLineDash([]);
-    context.strokeStyle = colors.casing;
-    context.lineWidth = isChosen ? 7 : 3.5;
+    context.strokeStyle = isChosen ? colors.casing : colors.halo;
+    context.lineWidth = (isChosen ? 7 : 4) * markScale(view);
     context.stroke();
-    context.setLineDash(isChosen ? [] : [5, 4]);
+    context.setLineDash(isChosen ? [] : [6, 3]);
     context.strokeStyle = color;
-    context.lineWidth = isChosen ? 4 : 2;
+    context.lineWidth = (isChosen ? 4 : 2) * markScale(view);
     context.stroke();
     context.setLineDash([]);
     const end = path.length - 2;
     const at = view.toPixels(moved(scene.floor, path[end], path[end + 1]));
-    mark(context, at, isChosen, color, colors.casing);
+    mark(context, at, isChosen, color, colors.casing, markScale(view));
   }
 }
 
+// Marks are smaller where much of the floor is seen at once.
+function markScale(view) {
+  return Math.min(1, Math.max(0.6, view.scale / 15));
+}
+
 // A star for the chosen one, a disc for the others.
-function mark(context, [x, y], isChosen, color, edge) {
+function mark(context, [x, y], isChosen, color, edge, size) {
   context.beginPath();
   if (isChosen) {
     for (let i = 0; i < 10; ++i) {
-      const radius = i % 2 === 0 ? 11 : 4.8;
+      const radius = (i % 2 === 0 ? 11 : 4.8) * size;
       const angle = -tau / 4 + (i * tau) / 10;
       context.lineTo(x + radius * Math.cos(angle), y + radius * Math.sin(angle));
     }
     context.closePath();
   } else {
-    context.arc(x, y, 4, 0, tau);
+    context.arc(x, y, 4 * size, 0, tau);
   }
   context.fillStyle = color;
   context.strokeStyle = edge;
@@ -230,7 +235,7 @@ function haloText(context, { colors }, text, x, y) {
 
 function drawRobot(context, scene) {
   const { run, frame, view, colors, floor } = scene;
-  const radius = Math.max(6, run.robot_radius_m * view.scale);
+  const radius = Math.max(7 * markScale(view), run.robot_radius_m * view.scale);
   onPage(context, scene);
   const place = (poses) => {
     const [x, y, yaw] = poses.subarray(3 * frame, 3 * frame + 3);

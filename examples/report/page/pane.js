@@ -9,6 +9,8 @@ class Pane {
     this.part('.pane-distinction').textContent = distinction;
     this.#say();
     const canvas = this.part('canvas');
+    const [left, bottom, right, top] = floorBounds(run);
+    canvas.style.setProperty('--aspect', String((right - left) / (top - bottom)));
     canvas.setAttribute('aria-label', `Map of ${run.name} at the time shown: the belief with the robot, its scan and its candidates`);
     this.map = new MapView(run, canvas, options.hiddenLayers, (map) => {
       this.#showFollow();
@@ -73,7 +75,7 @@ class Pane {
     if (run.hasTruth && !Number.isNaN(truth[3 * frame])) rows.push(['position error', `${number(error_m[frame], 3)} m`]);
     for (const name of run.metric_names) {
       const value = run.series[name][frame];
-      const isShown = /explored|entropy|error|sigma|nees/.test(name);
+      const isShown = /explored|entropy|information|error|sigma|nees/.test(name);
       if (!isShown) rows.push([plainName(name), `${shortNumber(Number(value.toPrecision(5)))} ${unitOf(name)}`]);
     }
     const state = [flags[frame] & 2 ? 'lost' : '', flags[frame] & 1 ? 'scan not trusted, not written' : '', flags[frame] & 4 ? 'map drawn anew' : ''].filter(Boolean);

@@ -15,9 +15,9 @@ const plotKinds = [
   {
     id: 'entropy',
     title: 'Map entropy',
-    unit: (run) => (/nats/.test(nameOf(run, /entropy/) ?? '') ? 'nats' : 'bits'),
-    explanation: 'What is not yet known of the cells, summed over the map.',
-    series: (run) => seriesNamed(run, /entropy/),
+    unit: (run) => (/nats/.test(nameOf(run, /entropy|information/) ?? '') ? 'nats' : 'bits'),
+    explanation: 'What is not yet known of the cells that the map touches in the end, summed.',
+    series: (run) => seriesNamed(run, /entropy/) ?? entropyOf(run),
     bottom: 0,
     digits: 0,
   },
@@ -52,6 +52,14 @@ function seriesNamed(run, pattern) {
   return name === undefined ? null : run.series[name];
 }
 
+// A recording has how much the map has told; cells of which nothing is known are a bit each.
+function entropyOf(run) {
+  const information = seriesNamed(run, /^information_bits/);
+  if (!information) return null;
+  const touched = run.metrics.touched_cells ?? Math.max(run.touchedCells, information.at(-1) ?? 0);
+  return information.map((bits) => touched - bits);
+}
+
 function scaledBy(factor, values) {
   return values && values.map((value) => factor * value);
 }
@@ -74,6 +82,7 @@ class Plot {
     this.canvas = figure.querySelector('canvas');
     parent.append(figure);
     this.duration = Math.max(1, ...runs.map((run) => run.duration));
+    this.colors = themeColors();
     this.#makeChart();
     this.#listen(seek);
   }
@@ -100,7 +109,7 @@ class Plot {
     this.time = time;
     this.#moveCursor();
     const shown = this.values.map((values, i) => (values ? number(values[frames[i]], this.kind.digits) : '–'));
-    const bands = this.bands.map((band, i) => (band ? ` of ${number(band[frames[i]], this.kind.digits)}` : ''));
+    const bands = this.bands.map((band, i) => (band ? ` (3σ ${number(band[frames[i]], this.kind.digits)})` : ''));
     this.readout.textContent = shown.map((text, i) => `${this.runs.length > 1 ? `${'AB'[i]} ` : ''}${text}${bands[i]}`).join('   ');
   }
 
@@ -155,8 +164,8 @@ class Plot {
         elements: { point: { radius: 0, hitRadius: 0 }, line: { tension: 0 } },
         plugins: { legend: { display: false }, tooltip: { enabled: false } },
         scales: {
-          x: { type: 'linear', min: 0, max: this.duration, grid: {}, ticks: { ...ticks(), callback: (value) => clock(value) } },
-          y: { type: 'linear', min: bottom, max: highest, grid: {}, ticks: { ...ticks(), maxTicksLimit: 5 }, afterFit: (scale) => { scale.width = 46; } },
+          x: { type: 'linear', min: 0, max: this.duration, grid: {}, ticks: { ...ticks(), callback: (value) => clock(value), stepSize: timeStep(this.duration) } },
+          y: { type: 'linear', min: bottom, max: highest, grid: {}, ticks: { ...ticks(), maxTicksLimit: 5, callback: (value) => (Math.abs(value) >= 10000 ? `${shortNumber(value / 1000)}k` : shortNumber(value)) }, afterFit: (scale) => { scale.width = 46; } },
         },
       },
     });
@@ -203,6 +212,11 @@ class Plot {
       if (event.buttons & 1) point(event);
     });
   }
+}
+
+// At most seven ticks.
+function timeStep(duration) {
+  return [10, 20, 30, 60, 120, 180, 300, 600, 900, 1800, 3600].find((step) => duration / step <= 7) ?? 7200;
 }
 
 function niceCeiling(value) {

@@ -2,7 +2,9 @@
 
 // The columns of a run by name, and what its head says of it.
 async function unpackRun(base64) {
-  const packed = Uint8Array.from(atob(base64.trim()), (letter) => letter.charCodeAt(0));
+  const letters = atob(base64.trim());
+  const packed = new Uint8Array(letters.length);
+  for (let i = 0; i < letters.length; ++i) packed[i] = letters.charCodeAt(i);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
   const bytes = await new Response(stream).arrayBuffer();
   const headSize = new DataView(bytes).getUint32(0, true);
@@ -30,6 +32,7 @@ function makeRun(about, columns) {
   undoDifferences(columns.ranges, about.beam_angles_rad.length);
   run.series = Object.fromEntries(about.metric_names.map((name, i) => [name, columns[`metric${i}`]]));
   run.cells = expandedCells(run);
+  run.touchedCells = touchedCount(run);
   run.frontierCells = expandedFrontiers(columns);
   run.everyNth = frames > 1 ? Math.ceil((about.frames_recorded - 1) / (frames - 1)) : 1;
   return run;
@@ -84,6 +87,13 @@ function expandedCells(run) {
     starts[frame + 1] = cell;
   }
   return { places, shades, starts };
+}
+
+// Cells of which anything was ever known.
+function touchedCount({ cells, belief }) {
+  const isTouched = new Uint8Array(belief.width * belief.height);
+  for (const place of cells.places) isTouched[place] = 1;
+  return isTouched.reduce((sum, value) => sum + value, 0);
 }
 
 function expandedFrontiers({ frontier_starts, frontier_cells }) {

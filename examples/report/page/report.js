@@ -79,6 +79,7 @@ function sameFloor(runs) {
 async function showReport() {
   const runs = await Promise.all([...document.querySelectorAll('script.run')].map((script) => unpackRun(script.textContent)));
   document.body.dataset.runs = String(runs.length);
+  document.body.style.setProperty('--runs', String(runs.length));
   const hiddenLayers = new Set();
   const panes = [];
   let follows = false;
@@ -125,6 +126,7 @@ async function showReport() {
   document.getElementById('no-parameters').hidden = fillParameters(document.getElementById('parameters'), runs) > 0;
   sayWhatIsShown(runs);
   document.body.dataset.ready = 'true';
+  performance.mark('ready');
   // For tests, and for who wants to look further.
   window.incognitaReport = { runs, panes, plots, player };
 }

@@ -18,7 +18,7 @@ function runHeads(runs) {
 
 // Metrics in the order of metricWords, then any others. What is also a parameter is left to the other table.
 function fillMetrics(table, runs) {
-  const parameters = new Set(runs.flatMap((run) => Object.keys(run.parameters)));
+  const parameters = new Set(runs.flatMap((run) => Object.keys(run.parameters).map((name) => name.split('.').at(-1))));
   const all = [...new Set(runs.flatMap((run) => Object.keys(flattened(run.metrics))))];
   const known = Object.keys(metricWords).filter((name) => all.includes(name));
   const names = [...known, ...all.filter((name) => !(name in metricWords) && !parameters.has(name))];
@@ -50,5 +50,5 @@ function distinctions(runs) {
   if (runs.length < 2) return [''];
   const names = Object.keys(runs[0].parameters).filter(
     (name) => name in runs[1].parameters && shownValue(runs[0].parameters[name]) !== shownValue(runs[1].parameters[name]) && !/output|threads|report|record/.test(name));
-  return runs.map((run) => names.slice(0, 3).map((name) => `${plainName(name)} ${shownValue(run.parameters[name])}`).join(', '));
+  return runs.map((run) => names.slice(0, 3).map((name) => `${plainName(name.split('.').at(-1))} ${shownValue(run.parameters[name])}`).join(', '));
 }

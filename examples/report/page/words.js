@@ -33,6 +33,7 @@ const metricWords = {
   distance_to_90_percent_m: 'how far until nine tenths were known',
   returned: 'whether it came back to the start, if asked to',
   return_distance_m: 'how far the way back was',
+  touched_cells: 'how many cells the map has touched',
   collisions: 'how often the robot’s body touched a wall',
   decisions: 'how often a goal was chosen',
   scans: 'how many scans the robot took',
@@ -80,6 +81,6 @@ function shownValue(value) {
 }
 
 function clock(seconds) {
-  const whole = Math.floor(seconds + 1e-9);
+  const whole = Math.floor(seconds + 0.05);
   return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}`;
 }
