@@ -20,6 +20,7 @@
 #include "incognita/io/floor_plan.hpp"
 #include "incognita/io/kth_xml.hpp"
 #include "incognita/io/polygons.hpp"
+#include "incognita/io/recording_file.hpp"
 #include "incognita/io/run_recorder.hpp"
 #include "incognita/loops/loop_closure.hpp"
 #include "incognita/map/cells/dispersion.hpp"
@@ -34,6 +35,7 @@
 #include "support/exploration_names.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
+#include "support/report_html.hpp"
 
 namespace kth_explorer {
 namespace {
@@ -149,7 +151,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   const Pose2 T_world_start = simulator.T_start_world().inverse();
   const MissionParams mission{robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
   std::optional<RunRecorder> recorder;
-  if (options.records) {
+  if (options.records || options.reports) {
     RecordingSetup setup;
     setup.parameters_json = parameters_json(explorer, options).dump();
     setup.metric_names.assign(recorded_metrics.begin(), recorded_metrics.end());
@@ -161,6 +163,10 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
   if (recorder) recorder->ended({std::string(to_string(record.stop_reason)), metrics.dump()});
+  if (options.reports) {
+    const std::string name = options.map_file.empty() ? "embedded floor plan" : std::filesystem::path(options.map_file).filename().string();
+    write_file_atomically(output.staged("report.html"), examples::report_html({{name, read_recording(recorder->file())}}));
+  }
   write_file_atomically(output.staged("metrics.json"), metrics.dump(2) + "\n");
   write_file_atomically(output.staged("decisions.csv"), decisions_csv(record));
   write_file_atomically(output.staged("progress.csv"), progress_csv(record));
@@ -183,7 +189,7 @@ void run(const Options& options) {
   const Pose2 T_world_start = start_pose(options, floor);
   examples::OutputFolder output(options.output, {"metrics.json", "decisions.csv", "progress.csv", "trajectory_estimated.tum",
                                                  "trajectory_true.tum", "map.yaml", "map.png", "overview.png",
-                                                 "recording.incognita"});
+                                                 "recording.incognita", "report.html"});
   Simulator simulator(std::move(world), T_world_start, params, options.seed);
   const bool coupled = options.filter == "dvl-ekf";
   const auto explore_in = [&]<class Cell>(std::type_identity<Cell>) {

@@ -40,6 +40,7 @@ struct Options {
   int threads = 0;
   std::string output = "output/kth_explorer";
   bool records = false;
+  bool reports = false;  ///< and records
   bool quiet = false;
 };
 
@@ -136,6 +137,7 @@ struct Options {
       ->capture_default_str();
   app.add_option("--output", options.output, "folder for the results")->type_name("DIR")->capture_default_str();
   app.add_flag("--record", options.records, "write recording.incognita as well, as the run goes: what is needed to look at it again");
+  app.add_flag("--report", options.reports, "write report.html as well, a replay to be looked at in a browser, and the recording that it is made of");
   app.add_flag("--quiet", options.quiet, "print nothing but errors");
   app.parse(argc, argv);
 
