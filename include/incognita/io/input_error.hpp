@@ -30,7 +30,7 @@ namespace incognita {
 /// wrong" with the value and the bound that it breaks, whatever the file holds.
 class InputError : public std::runtime_error {
  public:
-  /// "<file>: <problem>", with control characters taken out and cut to a length that can be read.
+  /// "<file>: <problem>", control characters made spaces, cut to a length that can be read.
   InputError(const std::filesystem::path& file, std::string_view problem)
       : InputError(file.string(), problem) {}
 

@@ -35,7 +35,7 @@ struct MeasuredPoint {
 
 /// An element of the covariance of what is measured along one direction, as a polynomial of the range.
 struct MeasuredCovarianceElement {
-  double constant_m2;  ///< from the position
+  double constant_m2;  ///< from the position, and the noise of the range
   double linear_m;     ///< by metre: from position and heading together
   double quadratic;    ///< by square metre: from heading and bearing, in rad^2
 
