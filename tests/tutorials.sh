@@ -44,7 +44,7 @@ for page in "$docs"/[0-9][0-9]_*.md; do
   grep -qF "($name.md)" "$docs/README.md" || fail "README.md does not name $name.md"
   grep -qF "examples/run tutorial_$name" "$page" || fail "$name.md does not say how to run it"
   [ "$(wc -l <"$page")" -le 140 ] || fail "$name.md is long"
-  for link in $(grep -o '](\([^)#]*\))' "$page" | sed 's/^](//; s/)$//'); do
+  for link in $(awk '/^```/ { code = !code } !code' "$page" | grep -o '](\([^)#]*\))' | sed 's/^](//; s/)$//'); do
     [ -e "$docs/$link" ] || fail "$name.md links to $link, which is not there"
   done
 done

@@ -36,9 +36,13 @@ Explorer make_explorer() {
 
 struct Drive {
   std::vector<Eigen::Vector2d> believed_m;  ///< in the map's frame, as all here
-  std::vector<Eigen::Vector2d> true_m;
   std::vector<Eigen::Vector2d> goals_m;
   double worst_error_m = 0.0;
+
+  void note(const Eigen::Vector2d& believed, const Eigen::Vector2d& truth) {
+    believed_m.push_back(believed);
+    worst_error_m = std::max(worst_error_m, (believed - truth).norm());
+  }
 };
 
 /// Until the explorer stops, for whatever reason.
@@ -50,10 +54,7 @@ void drive(Explorer& explorer, incognita::Simulator& robot, Drive& driven) {
     explorer.observe(robot.scan());
     if (explorer.decide() && explorer.goal()) driven.goals_m.push_back(*explorer.goal());
     command = explorer.command(robot.scan());
-
-    driven.believed_m.push_back(explorer.belief().pose.position());
-    driven.true_m.push_back(robot.T_start_robot().position());
-    driven.worst_error_m = std::max(driven.worst_error_m, (driven.believed_m.back() - driven.true_m.back()).norm());
+    driven.note(explorer.belief().pose.position(), robot.T_start_robot().position());
   }
 }
 
