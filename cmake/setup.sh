@@ -6,7 +6,7 @@
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libpugixml-dev libyaml-cpp-dev libpng-dev
   nlohmann-json3-dev)
 example_packages=(libcli11-dev libcairo2-dev fonts-dejavu-core gnuplot-nox)
-test_packages=(catch2 libbenchmark-dev)
+test_packages=(catch2 libbenchmark-dev liboctomap-dev make)
 benchmark_packages=(libbenchmark-dev libcli11-dev gnuplot-nox python3)
 peer_packages=(liboctomap-dev libmrpt-maps-dev)
 all_test_packages=(clang libomp-dev llvm libclang-rt-14-dev)
