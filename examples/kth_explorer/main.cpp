@@ -17,6 +17,7 @@
 #include "incognita/entropy/shannon.hpp"
 #include "incognita/entropy/tsallis.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
+#include "incognita/io/belief_numpy.hpp"
 #include "incognita/io/floor_plan.hpp"
 #include "incognita/io/kth_xml.hpp"
 #include "incognita/io/polygons.hpp"
@@ -173,6 +174,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   write_tum(output.staged("trajectory_estimated.tum"), record.estimated);
   write_tum(output.staged("trajectory_true.tum"), record.truth);
   examples::write_map(output.staged("map.yaml"), explorer.map(), explorer.params().thresholds);
+  write_belief_numpy(output.staged("belief"), explorer.map());
   draw_overview(output.staged("overview.png"), explorer.map(), simulator.world().plan(), area, T_world_start, record);
   output.publish();
   if (!options.quiet) print_table(metrics, output.path());
@@ -189,6 +191,7 @@ void run(const Options& options) {
   const Pose2 T_world_start = start_pose(options, floor);
   examples::OutputFolder output(options.output, {"metrics.json", "decisions.csv", "progress.csv", "trajectory_estimated.tum",
                                                  "trajectory_true.tum", "map.yaml", "map.png", "overview.png",
+                                                 "belief_log_odds.npy", "belief_probability.npy", "belief_frame.json",
                                                  "recording.incognita", "report.html"});
   Simulator simulator(std::move(world), T_world_start, params, options.seed);
   const bool coupled = options.filter == "dvl-ekf";
@@ -206,7 +209,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   CLI::App app("A simulated robot explores a floor plan: it maps, localises, and decides where to go by the information\n"
-               "it expects. Writes metrics.json, map.yaml and map.png, both trajectories, decisions.csv, progress.csv\n"
-               "and overview.png.");
+               "it expects. Writes metrics.json, map.yaml and map.png, both trajectories, decisions.csv, progress.csv,\n"
+               "overview.png and, for NumPy, belief_log_odds.npy, belief_probability.npy and belief_frame.json.");
   return examples::run_program("kth_explorer", app, [&] { kth_explorer::run(kth_explorer::parse_options(app, argc, argv)); });
 }

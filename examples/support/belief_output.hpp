@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "incognita/geometry/pose2.hpp"
-#include "incognita/io/map_server.hpp"
+#include "incognita/io/belief_map_server.hpp"
 #include "incognita/map/map.hpp"
 #include "incognita/map/occupancy.hpp"
 #include "support/drawing.hpp"
@@ -27,29 +27,11 @@ void draw_belief(Drawing& drawing, const Map& map, const incognita::Pose2& T_wor
   drawing.raster(map.grid(), T_world_map, [](const typename Map::State& state) { return belief_color(Map::CellType::log_odds(state)); });
 }
 
-/// The cells that were measured, as a box.
-template <class Map>
-[[nodiscard]] incognita::IndexBox<2> touched_cells(const Map& map) {
-  incognita::IndexBox<2> touched;
-  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(map.grid().size()); ++cell) {
-    if (map.log_odds(cell) == 0.0F) continue;
-    const incognita::Index<2> index = map.grid().index_at(cell);
-    touched = enclosing_box(touched, {index, (index.array() + 1).matrix()});
-  }
-  return touched;
-}
-
-/// The map as map_server takes it: free, occupied and unknown by the thresholds, cut to what was touched.
+/// The map as map_server takes it: free, occupied and unknown by the thresholds, cut to what says something.
 template <class Map>
 void write_map(const std::filesystem::path& yaml_file, const Map& map,
                const incognita::OccupancyThresholds& thresholds) {
-  incognita::ProbabilityGrid grid(map.lattice(), touched_cells(map), incognita::unknown_probability);
-  for (incognita::Offset cell = 0; cell < static_cast<incognita::Offset>(grid.size()); ++cell) {
-    const incognita::Occupancy occupancy = thresholds.classify(map.log_odds(grid.index_at(cell)));
-    if (occupancy != incognita::Occupancy::unknown)
-      grid[cell] = occupancy == incognita::Occupancy::occupied ? 1.0F : 0.0F;
-  }
-  write_map_server(yaml_file, grid);
+  incognita::write_belief_map_server(yaml_file, map, {.thresholds = thresholds});
 }
 
 }  // namespace examples

@@ -29,7 +29,8 @@
 /// A written file appears, or takes the place of an older one, only when it is complete.
 ///
 /// Nothing depends on the locale. All functions may be called from several threads, on different files.
-/// Frames are the file's own: metres, x right, y up; row 0 of an image is the largest y.
+/// Frames are the file's own: metres, x right, y up; row 0 of an image is the largest y, of an array the smallest.
+/// docs/formats.md has every format on one page.
 #pragma once
 
 #include "incognita/io/atomic_file.hpp"

@@ -88,14 +88,15 @@ same_metrics() {
 same_metrics one again
 same_metrics one two
 same_metrics behavioral shannon '|entropy|alpha'
-for file in trajectory_estimated.tum trajectory_true.tum map.yaml map.png; do
+for file in trajectory_estimated.tum trajectory_true.tum map.yaml map.png belief_log_odds.npy belief_probability.npy belief_frame.json; do
   cmp -s one/$file two/$file || fail "$file differs with the number of threads"
 done
 
-for file in metrics.json map.yaml map.png trajectory_estimated.tum trajectory_true.tum decisions.csv progress.csv overview.png; do
+for file in metrics.json map.yaml map.png trajectory_estimated.tum trajectory_true.tum decisions.csv progress.csv overview.png \
+  belief_log_odds.npy belief_probability.npy belief_frame.json; do
   [ -s one/$file ] || fail "$file is missing or empty"
 done
-[ "$(ls -A one | wc -l)" -eq 8 ] || fail "other files than promised: $(ls -A one)"
+[ "$(ls -A one | wc -l)" -eq 11 ] || fail "other files than promised: $(ls -A one)"
 for key in map seed entropy alpha compass loops resolution_m duration_s scans distance_m collisions decisions stop_reason \
   translation_rmse_m translation_mae_m heading_rmse_rad nees_mean map_error map_uncertainty_bits_per_step \
   explored_fraction explored_area_m2 wall_time_s real_time_factor threads; do

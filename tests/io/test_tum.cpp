@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,40 @@ TEST_CASE("TUM: a trajectory comes back to 1e-9") {
     CHECK(std::abs(wrap_angle_rad(back[i].pose.yaw_rad - trajectory[i].pose.yaw_rad)) < 1e-9);
   }
   CHECK(parse_tum(tum_text({}), "x").empty());
+}
+
+TEST_CASE("TUM: what is written is what evo reads") {
+  // evo splits rows at each single space: eight entries, none empty, no comment but a leading #; it takes seconds, x y z, and the
+  // quaternion with its scalar last, and with --full_check wants quaternions of length 1 and times that ascend.
+  Random random(4);
+  std::vector<TimedPose2> trajectory;
+  for (int i = 0; i < 500; ++i) {
+    trajectory.push_back({1.7e9 + 0.1 * i, {random.uniform(-1e4, 1e4), std::pow(10.0, random.uniform(-12.0, 2.0)), random.uniform(-3.15, 3.15)}});
+  }
+  std::istringstream lines(tum_text(trajectory));
+  std::size_t count = 0;
+  double last_s = 0.0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    std::vector<double> entries;
+    std::size_t begin = 0;
+    while (begin != std::string::npos) {
+      const std::size_t end = line.find(' ', begin);
+      const std::string entry = line.substr(begin, end == std::string::npos ? end : end - begin);
+      REQUIRE(entry.find_first_not_of("0123456789+-.e") == std::string::npos);
+      std::size_t read = 0;
+      entries.push_back(std::stod(entry, &read));  // throws for an empty entry
+      REQUIRE(read == entry.size());
+      begin = end == std::string::npos ? end : end + 1;
+    }
+    REQUIRE(entries.size() == 8);
+    REQUIRE(entries[0] > last_s);
+    REQUIRE(entries[0] == trajectory[count].time_s);
+    REQUIRE(entries[3] == 0.0);
+    REQUIRE(std::abs(std::hypot(std::hypot(entries[4], entries[5]), std::hypot(entries[6], entries[7])) - 1.0) < 1e-12);
+    REQUIRE(std::abs(angle_between_rad(2.0 * std::atan2(entries[6], entries[7]), trajectory[count].pose.yaw_rad)) < 1e-9);
+    last_s = entries[0];
+  }
+  CHECK(count == trajectory.size());
 }
 
 TEST_CASE("TUM: comments, empty lines, tabs and Windows line ends") {

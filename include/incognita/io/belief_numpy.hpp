@@ -45,8 +45,8 @@ namespace detail {
 /// Writes a belief, cut to the cells that say something, as `stem`_log_odds.npy and `stem`_probability.npy
 /// (float32, shape (rows, columns), row 0 with the smallest y; unknown is 0 and 0.5) and `stem`_frame.json:
 /// resolution_m, origin_m (the lower left corner of cell (0, 0)), first_cell (the x and y index of
-/// [0, 0]), shape, row order and units. So numpy's imshow needs origin="lower". The frame is written last:
-/// where it is, the arrays are complete. A map that says nothing gives arrays of shape (0, 0). Throws
+/// [0, 0]), shape, row order and units. So numpy's imshow needs origin="lower". The arrays are written first, the
+/// frame last. A map that says nothing gives arrays of shape (0, 0). Throws
 /// InputError when a file cannot be written.
 template <class Cell>
 void write_belief_numpy(const std::filesystem::path& stem, const Map<Cell, 2>& map) {

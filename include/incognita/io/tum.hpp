@@ -1,4 +1,5 @@
-/// Trajectories in the format of the TUM RGB-D benchmark: a line per pose, "time x y z qx qy qz qw".
+/// Trajectories in the format of the TUM RGB-D benchmark: a line per pose, "time x y z qx qy qz qw", in seconds and
+/// metres, the scalar of the quaternion last. evo reads what is written: `evo_ape tum true.tum estimated.tum`.
 #pragma once
 
 #include <algorithm>
@@ -76,7 +77,8 @@ namespace detail {
   return trajectory;
 }
 
-/// The text of a TUM file. Poses read back are the same to 1e-15 in x and y and to 1e-9 rad in yaw.
+/// The text of a TUM file: eight numbers a line with one space between them and none at the end, as evo asks for;
+/// times are written as they are, so evo wants them to ascend. Poses read back are the same to 1e-15 in x and y and to 1e-9 rad in yaw.
 [[nodiscard]] inline std::string tum_text(const std::vector<TimedPose2>& trajectory) {
   std::string text;
   for (const TimedPose2& timed : trajectory) {

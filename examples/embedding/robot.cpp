@@ -1,10 +1,11 @@
-/// A robot that stands in a corridor takes scans and decides where to go. What it computed goes, to the last
-/// digit, to the file that the first argument names.
+/// A robot that stands in a corridor takes scans and decides where to go. Where it could go, and what each place is worth to it,
+/// is printed, or goes to the file that the first argument names, to the last digit.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <incognita/incognita.hpp>
+#include <iostream>
 #include <limits>
 
 namespace {
@@ -23,7 +24,6 @@ incognita::Scan<2> corridor_scan() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
   incognita::Explorer explorer;
   const incognita::Scan<2> scan = corridor_scan();
   bool decided = false;
@@ -32,7 +32,9 @@ int main(int argc, char** argv) {
     decided = explorer.decide();
   }
 
-  std::ofstream figures(argv[1]);
+  std::ofstream file;
+  if (argc > 1) file.open(argv[1]);
+  std::ostream& figures = argc > 1 ? file : std::cout;
   figures.precision(std::numeric_limits<double>::max_digits10);
   figures << "incognita " << INCOGNITA_VERSION_MAJOR << '.' << INCOGNITA_VERSION_MINOR << '.'
           << INCOGNITA_VERSION_PATCH << '\n';
