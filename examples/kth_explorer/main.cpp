@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "incognita/entropy/behavioral.hpp"
 #include "incognita/entropy/renyi.hpp"
@@ -27,6 +28,7 @@
 #include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
 #include "kth_explorer/results.hpp"
+#include "kth_explorer/saved_mission.hpp"
 #include "support/exploration_names.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
@@ -143,8 +145,13 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   std::function<void(const ProgressRecord&)> report;
   if (!options.quiet) report = [&](const ProgressRecord& p) { print_progress(p, options.duration_s); };
   const Pose2 T_world_start = simulator.T_start_world().inverse();
-  const MissionParams mission{robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
-  const MissionRecord record = run_mission(explorer, simulator, floor, mission, report);
+  const MissionParams mission{simulator.T_world_robot().position(), robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
+  MissionRecord before;
+  if (!options.resume_file.empty()) before = resumed_mission(options, explorer, simulator);
+  std::string saved;
+  const MissionRecord record = run_mission(explorer, simulator, floor, mission, std::move(before), report, [&](const MissionRecord& now) {
+    if (!options.save_file.empty()) saved = saved_mission(options, explorer, simulator, now);
+  });
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
   write_file_atomically(output.staged("metrics.json"), metrics.dump(2) + "\n");
@@ -155,6 +162,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   examples::write_map(output.staged("map.yaml"), explorer.map(), explorer.params().thresholds);
   draw_overview(output.staged("overview.png"), explorer.map(), simulator.world().plan(), area, T_world_start, record);
   output.publish();
+  if (!options.save_file.empty()) write_file_atomically(options.save_file, saved);
   if (!options.quiet) print_table(metrics, output.path());
 }
 
@@ -167,6 +175,7 @@ void run(const Options& options) {
   const AllowedArea area = allowed_area(options);
   const World floor = allowed_floor(world, area);
   const Pose2 T_world_start = start_pose(options, floor);
+  require_place_to_save(options);
   examples::OutputFolder output(options.output, {"metrics.json", "decisions.csv", "progress.csv", "trajectory_estimated.tum",
                                                  "trajectory_true.tum", "map.yaml", "map.png", "overview.png"});
   Simulator simulator(std::move(world), T_world_start, params, options.seed);

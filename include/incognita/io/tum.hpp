@@ -23,6 +23,12 @@ namespace incognita {
 struct TimedPose2 {
   double time_s = 0.0;
   Pose2 pose;
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(time_s, pose);
+  }
 };
 
 namespace detail {
