@@ -33,6 +33,7 @@
 #include "kth_explorer/options.hpp"
 #include "kth_explorer/parameters.hpp"
 #include "kth_explorer/results.hpp"
+#include "kth_explorer/saved_mission.hpp"
 #include "support/exploration_names.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
@@ -150,7 +151,9 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   std::function<void(const ProgressRecord&)> report;
   if (!options.quiet) report = [&](const ProgressRecord& p) { print_progress(p, options.duration_s); };
   const Pose2 T_world_start = simulator.T_start_world().inverse();
-  const MissionParams mission{robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
+  const MissionParams mission{simulator.T_world_robot().position(), robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
+  MissionRecord before;
+  if (!options.resume_file.empty()) before = resumed_mission(options, explorer, simulator);
   std::optional<RunRecorder> recorder;
   if (options.records || options.reports) {
     RecordingSetup setup;
@@ -160,7 +163,12 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
     setup.T_map_plan = simulator.T_start_world();
     recorder.emplace(output.growing("recording.incognita"), explorer, simulator.scan(), std::move(setup));
   }
-  const MissionRecord record = run_mission(explorer, simulator, floor, mission, report, recorder ? &*recorder : nullptr);
+  std::string saved;
+  const auto save = [&](const MissionRecord& now) {
+    if (!options.save_file.empty()) saved = saved_mission(options, explorer, simulator, now);
+  };
+  const MissionRecord record =
+      run_mission(explorer, simulator, floor, mission, std::move(before), report, recorder ? &*recorder : nullptr, save);
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
   if (recorder) recorder->ended({std::string(to_string(record.stop_reason)), metrics.dump()});
@@ -177,6 +185,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   write_belief_numpy(output.staged("belief"), explorer.map());
   draw_overview(output.staged("overview.png"), explorer.map(), simulator.world().plan(), area, T_world_start, record);
   output.publish();
+  if (!options.save_file.empty()) write_file_atomically(options.save_file, saved);
   if (!options.quiet) print_table(metrics, output.path());
 }
 
@@ -189,6 +198,7 @@ void run(const Options& options) {
   const AllowedArea area = allowed_area(options);
   const World floor = allowed_floor(world, area);
   const Pose2 T_world_start = start_pose(options, floor);
+  require_place_to_save(options);
   examples::OutputFolder output(options.output, {"metrics.json", "decisions.csv", "progress.csv", "trajectory_estimated.tum",
                                                  "trajectory_true.tum", "map.yaml", "map.png", "overview.png",
                                                  "belief_log_odds.npy", "belief_probability.npy", "belief_frame.json",

@@ -41,6 +41,11 @@ struct DecisionRecord {
   double gain_nats;
   double runner_up_gain_nats;  ///< NaN when there was one candidate
   double evaluation_time_s;
+
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(time_s, candidates, goal_m, gain_nats, runner_up_gain_nats, evaluation_time_s);
+  }
 };
 
 struct ProgressRecord {
@@ -51,6 +56,11 @@ struct ProgressRecord {
   double three_sigma_m;
   double nees;  ///< NaN where the pose is known
   double distance_m;
+
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(time_s, explored_fraction, entropy_drop_nats, position_error_m, three_sigma_m, nees, distance_m);
+  }
 };
 
 /// What a recording of a mission has in each frame: those of a ProgressRecord, with how much the map has told instead of its entropy, which is
@@ -64,6 +74,7 @@ inline constexpr std::array<const char*, 6> recorded_metrics{"explored_fraction"
 }
 
 struct MissionParams {
+  Eigen::Vector2d start_m;  ///< in the map file's frame
   double robot_radius_m;
   double range_max_m;
   double duration_s;
@@ -93,6 +104,7 @@ struct MissionRecord {
   double explored_fraction = 0.0;
   double floor_area_m2 = 0.0;
   double wall_time_s = 0.0;
+  incognita::Twist2 command;  ///< the last of the exploration, held until the next scan
 
   /// The progress, to the second, when so much was explored; null when it never was.
   [[nodiscard]] const ProgressRecord* first_with_explored(double fraction) const {
@@ -100,21 +112,28 @@ struct MissionRecord {
                                     [=](const ProgressRecord& p) { return p.explored_fraction >= fraction; });
     return found == progress.end() ? nullptr : &*found;
   }
+
+  /// What an exploration adds to as it goes on; the rest is found in its end.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(estimated, truth, decisions, progress, trajectory_error, nees, scans, wall_time_s, command);
+  }
 };
 
 /// Drives `explorer` in `simulator` until it stops or duration_s is over, and then back if asked to. `floor` is what it is asked to
-/// explore. `report` is called once a simulated second of the exploration. `recorder` follows the explorer, the way back included, unless it is
-/// null.
-template <class Explorer>
+/// explore, and `record` that of what has been explored, of a simulator that is not at its start. `report` is called once a simulated second
+/// of the exploration, at_end(record) where it ends, before the way back. `recorder` follows the explorer, the way back included, unless it
+/// is null.
+template <class Explorer, class AtEnd>
 [[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, const incognita::World& floor,
-                                        const MissionParams& params, const std::function<void(const ProgressRecord&)>& report,
-                                        incognita::RunRecorder* recorder) {
+                                        const MissionParams& params, MissionRecord record,
+                                        const std::function<void(const ProgressRecord&)>& report, incognita::RunRecorder* recorder,
+                                        AtEnd&& at_end) {
   using namespace incognita;
   const Clock::time_point begin = Clock::now();
   const Pose2& T_start_world = simulator.T_start_world();
-  const Coverage coverage(
-      visible_floor(floor, simulator.T_world_robot().position(), params.robot_radius_m, params.range_max_m), T_start_world,
-      explorer.map().lattice());
+  const Coverage coverage(visible_floor(floor, params.start_m, params.robot_radius_m, params.range_max_m), T_start_world,
+                          explorer.map().lattice());
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   const auto is_known = [&](const Index<2>& cell) {
     return explorer.occupancy().grid().value(cell) != Occupancy::unknown;
@@ -122,7 +141,6 @@ template <class Explorer>
   EntropyLayer information(explorer.map().lattice(), EntropyTable(Shannon{}));
   information.rebuild(explorer.map());
 
-  MissionRecord record;
   // Of a pose that is known there is nothing to say.
   const auto is_estimated = [&] { return position_sigma_m(explorer.belief().covariance) > 0.0; };
   const auto progress = [&] {
@@ -172,7 +190,11 @@ template <class Explorer>
     observe_and_decide();
     remember_poses();
   };
-  examples::drive(explorer, simulator, params.duration_s, on_scan, [&] {
+  if (simulator.steps() == 0) {
+    on_scan();
+    record.command = explorer.command(simulator.scan());
+  }
+  examples::drive_on(explorer, simulator, record.command, params.duration_s, on_scan, [&] {
     const Pose2 truth = simulator.T_start_robot();
     record.trajectory_error.add(explorer.belief().pose, truth);
     if (is_estimated()) record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
@@ -181,12 +203,13 @@ template <class Explorer>
       if (report) report(record.progress.back());
     }
   });
+  record.wall_time_s += seconds_since(begin);
+  at_end(record);
   const ProgressRecord last = progress();
   if (record.progress.empty() || record.progress.back().time_s < last.time_s) record.progress.push_back(last);
   record.stop_reason = explorer.stopped().value_or(StopReason::out_of_time);
   record.distance_m = simulator.distance_m();
   record.duration_s = simulator.time_s();
-  record.wall_time_s = seconds_since(begin);
 
   record.explored_fraction = last.explored_fraction;
   record.floor_area_m2 = coverage.floor_area_m2();

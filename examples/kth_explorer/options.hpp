@@ -33,6 +33,8 @@ struct Options {
   std::optional<std::array<double, 4>> bounds_m;  ///< x0, y0, x1, y1 in the map file's frame
   std::string no_go_file;                         ///< empty: no no-go areas
   bool returns = false;
+  std::string save_file;    ///< empty: the mission is not saved
+  std::string resume_file;  ///< empty: the mission begins
   double duration_s = 1800.0;
   std::uint64_t seed = 1;
   std::optional<Eigen::Vector2d> start_m;  ///< in the map file's frame
@@ -126,6 +128,13 @@ struct Options {
       ->check(examples::refuse_empty);
   app.option_defaults()->group("Mission");
   app.add_flag("--return", options.returns, "drive back to the start in the end");
+  app.add_option("--save", options.save_file, "write the mission to a file where the exploration ends, before the way back")
+      ->type_name("FILE")
+      ->check(examples::refuse_empty);
+  app.add_option("--resume", options.resume_file,
+                 "go on with a mission that was saved with the same map, seed and options; --duration counts from its first start")
+      ->type_name("FILE")
+      ->check(examples::refuse_empty);
   app.option_defaults()->group("Belief");
   app.add_option("--resolution", options.resolution_m, "side of a cell of the belief, in metres, 0.02 to 1")
       ->type_name("M")

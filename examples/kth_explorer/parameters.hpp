@@ -1,8 +1,6 @@
 /// All that a mission was made with, by name.
 #pragma once
 
-#include <filesystem>
-#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -16,7 +14,7 @@ template <class Explorer>
 [[nodiscard]] nlohmann::ordered_json parameters_json(const Explorer& explorer, const Options& options) {
   nlohmann::ordered_json json;
   auto& mission = json["mission"];
-  mission["map"] = options.map_file.empty() ? "embedded" : std::filesystem::path(options.map_file).filename().string();
+  mission["map"] = map_name(options);
   mission["seed"] = options.seed;
   mission["duration_s"] = options.duration_s;
   mission["cells"] = options.cells;

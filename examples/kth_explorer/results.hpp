@@ -15,6 +15,7 @@
 #include "incognita/planning/allowed_area.hpp"
 #include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
+#include "kth_explorer/saved_mission.hpp"
 #include "support/belief_output.hpp"
 #include "support/drawing.hpp"
 
@@ -66,7 +67,7 @@ class CsvText {
 [[nodiscard]] inline nlohmann::ordered_json metrics_json(const MissionRecord& record, const Options& options) {
   nlohmann::ordered_json json;
   // Parameters come before duration_s, results from there on: by this order plot tells what runs differ in.
-  json["map"] = options.map_file.empty() ? "embedded" : std::filesystem::path(options.map_file).filename().string();
+  json["map"] = map_name(options);
   json["seed"] = options.seed;
   json["cells"] = options.cells;
   json["frontiers"] = options.frontiers;

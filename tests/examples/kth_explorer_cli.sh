@@ -24,6 +24,21 @@ cat >two_points.xml <<'XML'
   </space>
 </floor>
 XML
+cat >room.xml <<'XML'
+<?xml version="1.0" encoding="UTF-8"?>
+<floor BuildingName="x" FloorName="2">
+  <Scale PixelDistance="1000" RealDistance="100"/>
+  <space name="a" type="room">
+    <contour>
+      <centroid x="50" y="50"/>
+      <linesegment x1="0" y1="0" x2="100" y2="0" type="Wall" target=""/>
+      <linesegment x1="100" y1="0" x2="100" y2="100" type="Wall" target=""/>
+      <linesegment x1="100" y1="100" x2="0" y2="100" type="Wall" target=""/>
+      <linesegment x1="0" y1="100" x2="0" y2="0" type="Wall" target=""/>
+    </contour>
+  </space>
+</floor>
+XML
 printf '# a line\n0,0 1,1\n' >two_corners.txt
 printf '20,11 22,11 22,13 20,13\n' >no_go.txt
 cd ../run
@@ -63,13 +78,17 @@ refused "an unknown entropy" --entropy --entropy gibbs
 refused "a compass of another kind" --compass --compass maybe
 refused "loops of another kind" --loops --loops maybe
 refused "negative threads" --threads --threads -1
+refused "a mission that is not there" absent.mission --resume absent.mission
+refused "a mission without a name" --resume --resume ""
+refused "a place to save without a folder" absent/a.mission --save absent/a.mission
+refused "a folder to save to" "is a folder" --save ../inputs
 
 mkdir -p blocked/overview.png
 output=blocked refused "a result whose name is a folder" overview.png --duration 1e6
 rm -r blocked
 
 help_names help map cells frontiers entropy alpha filter compass loops strategy information navigation radius bounds \
-  no-go return duration seed start resolution threads output quiet
+  no-go return save resume duration seed start resolution threads output quiet
 
 # run NAME ARGUMENTS...: 20 s of a mission into the folder NAME.
 run() { run_quietly "$@" --duration 20 --seed 1; }
@@ -117,6 +136,37 @@ grep -q '"returned": null' one/metrics.json || fail "returned though not asked t
 # 20 s of exploration, and the way back.
 awk '$1 > 20.5 { later = 1 } END { exit !later }' part/trajectory_true.tum || fail "the way back is not in the trajectory"
 awk -F, 'NR > 1 && $1 > 20.0 { exit 1 }' part/progress.csv || fail "the way back is in the progress"
+
+# A mission that stops and goes on is the one that never stopped.
+run first --threads 2 --save first.mission --return
+run_quietly whole --threads 1 --duration 40 --seed 1 --save whole.mission
+run_quietly resumed --threads 1 --duration 40 --seed 1 --resume first.mission --save resumed/resumed.mission
+same_metrics whole resumed
+for file in trajectory_estimated.tum trajectory_true.tum map.yaml map.png progress.csv overview.png; do
+  cmp -s whole/$file resumed/$file || fail "$file is not that of a mission that never stopped"
+done
+untimed() { cut -d, -f1-6 "$1/decisions.csv"; }
+[ "$(untimed whole)" = "$(untimed resumed)" ] || fail "a mission that goes on decides otherwise"
+[ "$(wc -c <whole.mission)" -eq "$(wc -c <resumed/resumed.mission)" ] || fail "a mission that goes on is saved with another size"
+run_quietly dispersion --threads 1 --duration 5 --cells dispersion --filter none --save dispersion.mission
+run_quietly resumed_dispersion --threads 1 --duration 8 --cells dispersion --filter none --resume dispersion.mission
+
+cp first.mission flipped.mission
+printf '\x55' | dd of=flipped.mission bs=1 seek=100000 conv=notrunc status=none
+cmp -s first.mission flipped.mission && fail "the flipped byte is the same"
+head -c 100000 first.mission >short.mission
+printf 'no mission\n' >other.txt
+refused "a mission with a flipped byte" "flipped.mission: is damaged" --resume flipped.mission
+refused "half a mission" "short.mission: is damaged" --resume short.mission
+refused "a file that is no mission" "is not a mission file" --resume other.txt
+refused "a mission of another map" 'mission.map = embedded' --resume first.mission --map ../inputs/room.xml --start 5,5
+refused "a mission of another seed" 'mission.seed = 1' --resume first.mission --seed 2
+refused "a mission of another start" 'mission.T_start_world' --resume first.mission --start 19,12
+refused "a mission of other cells" 'cells.rule = 0' --resume first.mission --cells log-odds
+refused "a mission of another filter" 'filter.start' --resume first.mission --filter dead-reckoning
+refused "a mission of another resolution" 'map.resolution_m = 0.1' --resume first.mission --resolution 0.2
+refused "a mission of another radius" 'explorer.travel.robot_radius_m = 0.2' --resume first.mission --radius 0.25
+refused "a mission that has lasted longer" 'has lasted 20' --resume first.mission --duration 10
 
 times=$(tail -n +2 one/progress.csv | cut -d, -f1 | tr '\n' ' ')
 [ "$times" = "$(seq -s ' ' 1 20) " ] || fail "progress.csv has not a line each second: $times"

@@ -120,7 +120,7 @@ std::size_t bytes_in_use() {
 /// The same content with the checksum that belongs to it.
 std::string with_checksum(std::string content) {
   content.resize(content.size() - 4);
-  detail::append_number(content, detail::checksum(content));
+  detail::append_number(content, checksum(content));
   return content;
 }
 

@@ -22,6 +22,11 @@ namespace incognita {
 /// A larger file is refused.
 inline constexpr std::size_t mission_file_size_max_bytes = std::size_t{4} << 30U;
 
+/// CRC-32 as zlib, PNG and Ethernet have it.
+[[nodiscard]] inline std::uint32_t checksum(std::string_view bytes) {
+  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
 namespace detail {
 
 /// As PNG's: it shows at once what a transfer of text has done to it.
@@ -40,10 +45,6 @@ template <class Number>
     number |= static_cast<Number>(static_cast<Number>(static_cast<unsigned char>(bytes[place + byte])) << (8 * byte));
   }
   return number;
-}
-
-[[nodiscard]] inline std::uint32_t checksum(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 /// What is in a file, still as bytes.
@@ -100,7 +101,7 @@ template <class Mission>
     detail::append_number(content, std::uint64_t{section.size()});
     content += section;
   }
-  detail::append_number(content, detail::checksum(content));
+  detail::append_number(content, checksum(content));
   return content;
 }
 

@@ -130,6 +130,8 @@ class ParameterLines {
   [[nodiscard]] static std::string text_of(const T& value) {
     if constexpr (detail::NumberValue<T>) {
       return detail::number_text(value);
+    } else if constexpr (std::same_as<T, std::string>) {
+      return one_line(value, 1000);
     } else if constexpr (detail::FixedMatrix<T>) {
       Numbers numbers;
       for (Eigen::Index i = 0; i < value.size(); ++i) numbers(value(i));

@@ -24,6 +24,12 @@ namespace incognita {
 struct TimedPose2 {
   double time_s = 0.0;  ///< of its stamp
   Pose2 pose;           ///< T_frame_robot
+
+  /// For archives of states, see docs/mission_file.md.
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(time_s, pose);
+  }
 };
 
 namespace detail {
