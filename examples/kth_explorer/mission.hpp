@@ -164,22 +164,25 @@ template <class Explorer, class AtEnd>
     }
     if (recorder != nullptr) recorder->observed(explorer, simulator.scan(), simulator.T_start_robot(), recorded);
   };
-  const auto decide = [&] {
-    if (!explorer.decide()) return false;
+  // How long it took, when it was decided.
+  const auto decide = [&]() -> std::optional<double> {
+    const Clock::time_point start = Clock::now();
+    if (!explorer.decide()) return std::nullopt;
+    const double took_s = seconds_since(start);
     if (recorder != nullptr) recorder->decided(explorer);
-    return true;
+    return took_s;
   };
   const auto observe_and_decide = [&] {
     observe();
     ++record.scans;
-    const Clock::time_point start = Clock::now();
-    if (!decide()) return;
+    const std::optional<double> took_s = decide();
+    if (!took_s) return;
     if (const Candidate* chosen = explorer.decision().chosen()) {
       const auto& candidates = explorer.decision().candidates;
       record.decisions.push_back({simulator.time_s(), candidates.size(), chosen->goal_m(), chosen->gain_nats,
                                   candidates.size() > 1 ? candidates[1].gain_nats
                                                         : not_a_number,
-                                  seconds_since(start)});
+                                  *took_s});
     }
   };
   const auto remember_poses = [&] {
@@ -228,7 +231,7 @@ template <class Explorer, class AtEnd>
     explorer.return_to_start();
     const auto observe_and_go_on = [&] {
       observe();
-      static_cast<void>(decide());
+      decide();
       remember_poses();
     };
     examples::drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {});

@@ -19,8 +19,8 @@ struct OutputError : std::runtime_error {
 };
 
 /// Write files to staged(name), a hidden place within the folder, then publish() moves them all to their names.
-/// Without publish, the destructor leaves everything as it was: no files, and no folders that were not there
-/// before. Nothing is created until the first staged(), so what stops a run before its end leaves nothing behind.
+/// Without publish, the destructor leaves everything as it was: no files but those of growing(), and no folders that were not
+/// there before. Nothing is created until the first staged() or growing(), so what stops a run before its end leaves nothing else behind.
 class OutputFolder {
  public:
   /// Throws OutputError when the folder cannot be created or written, or one of `files` in it is a folder.
@@ -29,29 +29,29 @@ class OutputFolder {
     if (folder_.empty()) throw OutputError("the output folder has no name");
     staging_ = folder_ / (".incomplete-" + std::to_string(getpid()));
     for (const std::string& file : files) require_no_folder(folder_ / file);
-    create();
+    create(staging_);
+    is_staging_ = true;
     undo();
   }
 
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  ~OutputFolder() {
-    if (is_staging_) undo();
-  }
+  ~OutputFolder() { undo(); }
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 
   /// Where to write the file that will be path() / name. Throws OutputError when the folder cannot be created.
   [[nodiscard]] std::filesystem::path staged(const std::string& name) {
-    if (!is_staging_) create();
+    if (!is_staging_) create(staging_);
+    is_staging_ = true;
     return staging_ / name;
   }
 
-  /// Where to write a file that is of use before it is complete: in the folder itself, as NAME.partial. It is there to stay when there is no
+  /// Where to write a file that is of use before it is complete: in the folder itself, as NAME.partial. There it stays when there is no
   /// publish(), which gives it its name. Throws OutputError when the folder cannot be created.
   [[nodiscard]] std::filesystem::path growing(const std::string& name) {
-    if (!is_staging_) create();
+    create(folder_);
     growing_.push_back(name);
     return partial(name);
   }
@@ -59,16 +59,19 @@ class OutputFolder {
   /// Moves the staged files to their names and returns their paths, sorted. Throws OutputError when one
   /// cannot be moved.
   std::vector<std::filesystem::path> publish() {
-    if (!is_staging_) return {};
     std::vector<std::filesystem::path> files;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(staging_)) files.push_back(entry.path());
+    if (is_staging_) {
+      for (const auto& entry : std::filesystem::directory_iterator(staging_)) files.push_back(entry.path());
+    }
     std::sort(files.begin(), files.end());
     for (const std::filesystem::path& file : files) require_no_folder(folder_ / file.filename());
+    for (const std::string& name : growing_) require_no_folder(folder_ / name);
     for (std::filesystem::path& file : files) file = moved(file, folder_ / file.filename());
     for (const std::string& name : growing_) files.push_back(moved(partial(name), folder_ / name));
     std::sort(files.begin(), files.end());
     growing_.clear();
+    created_.clear();
+    std::error_code error;
     std::filesystem::remove(staging_, error);
     is_staging_ = false;
     return files;
@@ -91,27 +94,29 @@ class OutputFolder {
     return to;
   }
 
-  void create() {
-    created_.clear();
-    std::filesystem::path existing = std::filesystem::absolute(staging_).lexically_normal();
+  /// Creates a folder and those it is in.
+  void create(const std::filesystem::path& folder) {
+    std::filesystem::path existing = std::filesystem::absolute(folder).lexically_normal();
     std::error_code error;
+    std::vector<std::filesystem::path> missing;
     while (!std::filesystem::exists(existing, error) && !error) {
-      created_.push_back(existing);
+      missing.push_back(existing);
       existing = existing.parent_path();
     }
-    std::filesystem::create_directories(staging_, error);
+    created_.insert(created_.begin(), missing.begin(), missing.end());
+    std::filesystem::create_directories(folder, error);
     if (error) {
       undo();
       throw OutputError("cannot write to " + folder_.string() + ": " + error.message());
     }
-    is_staging_ = true;
   }
 
+  /// Folders that are not empty stay.
   void undo() noexcept {
-    is_staging_ = false;
     std::error_code ignored;
-    std::filesystem::remove_all(staging_, ignored);
+    if (std::exchange(is_staging_, false)) std::filesystem::remove_all(staging_, ignored);
     for (const std::filesystem::path& folder : created_) std::filesystem::remove(folder, ignored);
+    created_.clear();
   }
 
   std::filesystem::path folder_;

@@ -1,11 +1,9 @@
-#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
+#include "../allocations.hpp"
 #include "incognita/core/random.hpp"
 #include "incognita/entropy/behavioral.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
@@ -15,28 +13,8 @@
 #include "incognita/map/map.hpp"
 #include "room.hpp"
 
-// Counts what the whole test program allocates by new. Eigen's own allocations do not come by it, but fixed sizes have none.
-// All forms are replaced together: a sanitizer's own would not match the others' delete.
-namespace {
-std::atomic<std::size_t> allocations{0};
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  ++allocations;
-  return std::malloc(size == 0 ? 1 : size);
-}
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (void* memory = operator new(size, std::nothrow)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept { return operator new(size, tag); }
-[[gnu::noinline]] void* operator new[](std::size_t size) { return operator new(size); }
-[[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete[](void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-
 using namespace incognita;
+using test::allocation_count;
 
 TEST_CASE("A filter in a room that it knows allocates nothing for a scan, and for pieces only now and then", "[estimation]") {
   const std::vector<room::Wall> walls = room::box(room::kTurned);
@@ -54,14 +32,14 @@ TEST_CASE("A filter in a room that it knows allocates nothing for a scan, and fo
     }
     const double step_m = 0.5 * (std::sin(0.01 * (scan_number + 1)) - std::sin(0.01 * scan_number));
     const bool is_warm = scan_number >= 1000;
-    std::size_t before = allocations;
+    std::size_t before = allocation_count();
     const CorrectionReport report = filter.correct(scan, map);
-    if (is_warm) in_correct += allocations - before;
+    if (is_warm) in_correct += allocation_count() - before;
     REQUIRE(report.trusted);
     map.update(scan, filter.belief().pose, filter.belief().covariance);
-    before = allocations;
+    before = allocation_count();
     filter.learn(scan);
-    if (is_warm) in_learn += allocations - before;
+    if (is_warm) in_learn += allocation_count() - before;
     filter.predict({step_m, 0.0, 0.0}, 0.1);
   }
   CHECK(in_correct == 0);
@@ -90,17 +68,17 @@ TEST_CASE("A map that has grown, what follows it, and predictions on it allocate
     const Pose2 truth{0.4 * std::sin(0.1 * scan_number), 0.3 * std::cos(0.07 * scan_number), 0.01 * scan_number};
     const Scan<2> scan = room::scan_of(walls, truth);
     const bool is_warm = scan_number >= 200;
-    std::size_t before = allocations;
+    std::size_t before = allocation_count();
     map.update(scan, truth, Eigen::Matrix3d::Identity() * 1e-4);
-    if (is_warm) in_update += allocations - before;
-    before = allocations;
+    if (is_warm) in_update += allocation_count() - before;
+    before = allocation_count();
     occupancy.follow(map);
     frontier.follow(occupancy);
     information.follow(map);
-    if (is_warm) in_layers += allocations - before;
-    before = allocations;
+    if (is_warm) in_layers += allocation_count() - before;
+    before = allocation_count();
     evaluate_candidates(map, entropy, filter, candidates, GainParams{}, 1, scratch);
-    if (is_warm) in_candidates += allocations - before;
+    if (is_warm) in_candidates += allocation_count() - before;
   }
   CHECK(in_update == 0);
   CHECK(in_layers == 0);

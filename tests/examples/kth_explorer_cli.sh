@@ -85,10 +85,13 @@ refused "a folder to save to" "is a folder" --save ../inputs
 
 mkdir -p blocked/overview.png
 output=blocked refused "a result whose name is a folder" overview.png --duration 1e6
+mkdir blocked/recording.incognita
+rmdir blocked/overview.png
+output=blocked refused "a recording whose name is a folder" recording.incognita --record --duration 1e6
 rm -r blocked
 
 help_names help map cells frontiers entropy alpha filter compass loops strategy information navigation radius bounds \
-  no-go return save resume duration seed start resolution threads output quiet
+  no-go return save resume duration seed start resolution threads output record report quiet
 
 # run NAME ARGUMENTS...: 20 s of a mission into the folder NAME.
 run() { run_quietly "$@" --duration 20 --seed 1; }
@@ -124,6 +127,21 @@ done
 grep -q '"duration_s": 20.0,' one/metrics.json || fail "duration_s is not 20: $(grep duration_s one/metrics.json)"
 grep -q '"stop_reason": "out_of_time"' one/metrics.json || fail "the stop reason: $(grep stop_reason one/metrics.json)"
 grep -q "$work" one/metrics.json && fail "a path is in metrics.json"
+
+# Recorded, it is the same run, and an earlier recording gives way.
+mkdir recorded
+echo "an earlier one" >recorded/recording.incognita
+run recorded --threads 1 --record
+same_metrics one recorded
+for file in trajectory_estimated.tum trajectory_true.tum map.yaml map.png progress.csv; do
+  cmp -s one/$file recorded/$file || fail "$file differs when the run is recorded"
+done
+decided() { rev "$1/decisions.csv" | cut -d, -f2- ; }  # but for how long it took
+[ "$(decided one)" = "$(decided recorded)" ] || fail "decisions.csv differs when the run is recorded"
+[ "$(ls -A recorded | wc -l)" -eq 9 ] || fail "other files than promised: $(ls -A recorded)"
+[ "$(head -c 8 recorded/recording.incognita)" = INCOGREC ] || fail "recording.incognita is none"
+grep -aq '"stop_reason":"out_of_time"' recorded/recording.incognita || fail "the recording does not say how the run ended"
+grep -aq '"seed":1' recorded/recording.incognita || fail "the recording does not say what the run was made with"
 
 # A part of the floor, with a pose that is known, and back.
 run part --threads 1 --filter none --bounds 17,8,40,16 --no-go ../inputs/no_go.txt --radius 0.25 --return

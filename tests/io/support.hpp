@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -76,6 +77,12 @@ std::string refusal(Read&& read) {
     return message;
   }
   return "";
+}
+
+/// 64 bits, each as likely set as not.
+inline std::uint64_t any_bits(incognita::Random& random) {
+  constexpr std::uint64_t half = std::uint64_t{1} << 32U;
+  return random.index(half) << 32U | random.index(half);
 }
 
 /// Reads `good` with a few bytes changed, cut out or repeated, many times over. Each must be read or refused;
