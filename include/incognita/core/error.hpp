@@ -10,16 +10,10 @@
 
 namespace incognita {
 
-/// Throws std::invalid_argument "<where>: <field> is <value>, but must be <bound>". The value is in the unit that the field's name says.
-[[noreturn]] inline void throw_invalid(std::string_view where, std::string_view field, double value,
-                                       std::string_view bound) {
-  std::ostringstream message;
-  message << where << ": " << field << " is " << value << ", but must be " << bound;
-  throw std::invalid_argument(message.str());
-}
-
-/// The same of a value that is no number, as text.
-[[noreturn]] inline void throw_invalid(std::string_view where, std::string_view field, std::string_view value, std::string_view bound) {
+/// Throws std::invalid_argument "<where>: <field> is <value>, but must be <bound>". The value is a number in the unit that the field's
+/// name says, or text.
+template <class Value>
+[[noreturn]] void throw_invalid(std::string_view where, std::string_view field, const Value& value, std::string_view bound) {
   std::ostringstream message;
   message << where << ": " << field << " is " << value << ", but must be " << bound;
   throw std::invalid_argument(message.str());

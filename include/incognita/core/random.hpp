@@ -35,7 +35,7 @@ class Random {
     return static_cast<std::uint64_t>(uniform() * static_cast<double>(count));
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(engine_);

@@ -52,7 +52,7 @@ struct CompassParams {
     require(scans_a_view >= 1.0, "CompassParams", "scans_a_view", scans_a_view, ">= 1");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(
@@ -120,7 +120,7 @@ class Compass {
     double yaw_rad;        ///< of the robot in the map's frame, in (-pi, pi]
     double variance_rad2;  ///< of the ranges' noise and of walls off the right angle
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Archive>
     void archive_state(Archive& archive) {
       archive(yaw_rad, variance_rad2);
@@ -173,7 +173,7 @@ class Compass {
     return sum_rad2 / (params_.wall_sigma_walls + walls_);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("compass", params_);

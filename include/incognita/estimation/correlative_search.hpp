@@ -48,7 +48,7 @@ struct CorrelativeSearchParams {
     require_non_negative("CorrelativeSearchParams", "objective_margin", objective_margin);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(

@@ -17,7 +17,7 @@ class DeadReckoning {
     MotionNoise noise{0.00707, 0.00283};
     PoseBelief start;  ///< in the map's frame
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Fields>
     void list_fields(Fields& fields) const {
       fields("noise, start", noise, start);
@@ -62,7 +62,7 @@ class DeadReckoning {
     return belief;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("filter", params_);

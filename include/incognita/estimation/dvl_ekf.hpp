@@ -30,12 +30,14 @@ struct NoLoops {
   struct Params {
     void validate() const {}  ///< never throws
 
+    /// For archives of states, see docs/mission_file.md: there are none.
     template <class Fields>
     void list_fields(Fields& /*fields*/) const {}
   };
   NoLoops() = default;                           ///< closes nothing
   explicit NoLoops(const Params& /*params*/) {}  ///< likewise
 
+  /// For archives of states, see docs/mission_file.md: there is none.
   template <class Archive>
   void archive_state(Archive& /*archive*/, std::size_t /*pieces*/) {}
 };
@@ -96,7 +98,7 @@ class BasicDvlEkf {
     /// For imagined scans: divided by the number of beams, so that little is learned where little is seen.
     RayUpdateParams imagined{{}, 1.2, Tempering::beams, MixtureVariance::squared_weights};
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Fields>
     void list_fields(Fields& fields) const {
       fields(
@@ -237,7 +239,7 @@ class BasicDvlEkf {
     return {belief.pose, updated_covariance(belief.covariance, ray_information(hits, beam_count, params).matrix)};
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("filter", params_);

@@ -23,7 +23,7 @@ struct CorrectionReport {
   bool relocated = false;  ///< the robot was found again somewhere else
   bool lost = false;       ///< too many scans in a row were not to be trusted
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(associations, residual_rms_m, consistent_share, trusted, relocated, lost);

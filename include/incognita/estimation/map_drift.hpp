@@ -62,7 +62,7 @@ class MapDrift {
       require(scans_per_piece >= 1, "MapDrift", "scans_per_piece", scans_per_piece, ">= 1");
     }
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Fields>
     void list_fields(Fields& fields) const {
       fields("inherited_share, reference_quantile, scans_per_piece", inherited_share, reference_quantile, scans_per_piece);
@@ -83,7 +83,7 @@ class MapDrift {
     double turn_at_birth_rad2 = 0.0;                  ///< the variance of its piece's turn when that was born
     int piece = 0;                                    ///< its number
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Archive>
     void archive_state(Archive& archive) {
       archive(drift, turn_at_birth_rad2, piece);
@@ -202,7 +202,7 @@ class MapDrift {
     return std::max(0.0, variance_m2);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("drift", params_);

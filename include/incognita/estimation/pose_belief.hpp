@@ -16,7 +16,7 @@ struct PoseBelief {
   Pose2 pose;                                            ///< the mean
   Eigen::Matrix3d covariance = zero<Eigen::Matrix3d>();  ///< symmetric and positive semi-definite
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(pose, covariance);
@@ -63,7 +63,7 @@ struct MotionNoise {
     return diagonal_covariance(position_m2, position_m2, yaw_rad2);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("position_m_per_sqrt_s, yaw_rad_per_sqrt_s", position_m_per_sqrt_s, yaw_rad_per_sqrt_s);

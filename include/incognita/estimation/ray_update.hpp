@@ -40,7 +40,7 @@ struct RayUpdateParams {
     require_positive("RayUpdateParams", "gamma", gamma);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("dvl, gamma, tempering, mixture", dvl, gamma, tempering, mixture);

@@ -48,7 +48,7 @@ struct RegistrationParams {
     require_positive("RegistrationParams", "residual_scale_m", residual_scale_m);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(

@@ -34,7 +34,7 @@ struct RelocationParams {
     require(memory_scans >= 1.0, "RelocationParams", "memory_scans", memory_scans, ">= 1");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(
@@ -60,7 +60,7 @@ struct Streak {
     if (!holds) duration_s = 0.0;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(scans, duration_s);
@@ -156,7 +156,7 @@ class Relocation {
     return true;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("relocation", params_);

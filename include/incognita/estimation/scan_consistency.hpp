@@ -29,7 +29,7 @@ struct ConsistencyParams {
     require(share_min >= 0.0 && share_min <= 1.0, "ConsistencyParams", "share_min", share_min, "in [0, 1]");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(

@@ -32,7 +32,7 @@ struct SearchWindow {
     require_non_negative("SearchWindow", "yaw_rad", yaw_rad);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("x_m, y_m, yaw_rad", x_m, y_m, yaw_rad);

@@ -22,7 +22,7 @@ struct SlamReport {
   ScanReport scan;              ///< of the map; all beams ignored when the correction was not trusted
   bool is_redrawn = false;      ///< the map was drawn again from all scans, after a loop was closed
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(correction, scan, is_redrawn);
@@ -65,7 +65,7 @@ class Slam {
   /// See Map::reserve.
   void reserve(const Box<Point<2>>& box_m) { map_.reserve(box_m); }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(filter_, given_, map_);

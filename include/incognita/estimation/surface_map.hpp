@@ -45,7 +45,7 @@ struct Surface {
     return planar ? dot(normal, direction) < 0.0 : dot(view, direction) > 0.0;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(count, piece, mean_m, scatter_m2, view, normal, planar);
@@ -69,7 +69,7 @@ class SurfaceMap {
     double roughness_m2 = 4e-5;        ///< allows for the noise of ranges
     double spread_min_m = 0.02;        ///< planar: sqrt of the next eigenvalue at least this
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Fields>
     void list_fields(Fields& fields) const {
       fields(
@@ -180,7 +180,7 @@ class SurfaceMap {
     }
   }
 
-  /// For archives of states, see docs/mission_file.md. Surfaces must be of one of `pieces` pieces of the map.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws. Surfaces must be of one of `pieces` pieces of the map.
   template <class Archive>
   void archive_state(Archive& archive, std::size_t pieces = 1) {
     archive.check("surfaces", params_);

@@ -30,7 +30,7 @@ struct Candidate {
   /// Where the path ends, in the map's frame. The path must not be empty.
   [[nodiscard]] const Eigen::Vector2d& goal_m() const { return path.points_m().back(); }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(frontier_m, frontier, viewpoint, path, gain_nats, information, navigation_cost, utility);

@@ -5,6 +5,7 @@
 
 namespace incognita {
 
+/// What ended the time of the goal before.
 enum class DecisionReason {
   no_goal,        ///< there was none: at the start, or after a pause or an end
   arrived,        ///< at the goal

@@ -46,7 +46,7 @@ struct Decision {
     return stopped || candidates.empty() ? nullptr : &candidates.front();
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(time_s, candidates, stopped);
@@ -223,7 +223,7 @@ class Explorer {
   [[nodiscard]] const ExplorerParams& params() const { return params_; }  ///< as given
   [[nodiscard]] double time_s() const { return time_s_; }  ///< the sum of all moves' durations
 
-  /// For archives of states, see docs/mission_file.md. Everything that goes on from one call to the next is in the state; the rest is
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws. Everything that goes on from one call to the next is in the state; the rest is
   /// made again from it.
   template <class Archive>
   void archive_state(Archive& archive) {

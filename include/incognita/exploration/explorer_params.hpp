@@ -83,7 +83,7 @@ struct ExplorerParams {
     require(threads >= 0, "ExplorerParams", "threads", threads, ">= 0");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(

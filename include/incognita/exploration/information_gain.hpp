@@ -38,7 +38,7 @@ struct GainParams {
     require_positive("GainParams", "scan_rate_hz", scan_rate_hz);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("pose_spacing_m, beams, range_max_m, speed_m_per_s, scan_rate_hz", pose_spacing_m, beams, range_max_m, speed_m_per_s, scan_rate_hz);

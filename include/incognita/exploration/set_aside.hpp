@@ -37,7 +37,7 @@ struct SetAsideParams {
     require(change_cells_min >= 1, "SetAsideParams", "change_cells_min", change_cells_min, ">= 1");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("radius_m, watch_radius_m, change_cells_min", radius_m, watch_radius_m, change_cells_min);
@@ -68,7 +68,7 @@ class SetAsidePlaces {
     return false;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("set_aside", params_);

@@ -26,7 +26,7 @@ struct FrontierParams {
     require_positive("FrontierParams", "length_max_m", length_max_m);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(

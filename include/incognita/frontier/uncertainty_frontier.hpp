@@ -25,7 +25,7 @@ struct UncertaintyFrontierParams {
     groups.validate();
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("gradient_min_m, obstacle_distance_min_m, groups", gradient_min_m, obstacle_distance_min_m, groups);

@@ -33,7 +33,7 @@ struct Box {
     return equal(a.lower, b.lower) && equal(a.upper, b.upper);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(lower, upper);

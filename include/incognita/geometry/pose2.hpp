@@ -62,7 +62,7 @@ struct Pose2 {
     return std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(yaw_rad);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(x_m, y_m, yaw_rad);

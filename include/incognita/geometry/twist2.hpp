@@ -9,7 +9,7 @@ struct Twist2 {
   double speed_m_per_s = 0.0;        ///< forwards > 0
   double turn_rate_rad_per_s = 0.0;  ///< counter-clockwise > 0
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(speed_m_per_s, turn_rate_rad_per_s);

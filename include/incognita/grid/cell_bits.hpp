@@ -67,7 +67,7 @@ class BasicCellBits {
   [[nodiscard]] const Grid<Word, Dim>& tiles() const { return tiles_; }
   [[nodiscard]] Grid<Word, Dim>& tiles() { return tiles_; }  ///< to be written by whoever knows their layout
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(tiles_);

@@ -105,14 +105,14 @@ class Grid {
     return true;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive_box(archive);
     archive.each(values_);
   }
 
-  /// The same of a grid whose values can be found again: when loading, each is the fill value.
+  /// The same of a grid whose values can be found again: when loading, each is the fill value. Throws likewise.
   template <class Archive>
   void archive_box(Archive& archive) {
     IndexBox<Dim> box = box_;

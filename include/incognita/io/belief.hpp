@@ -41,7 +41,7 @@ template <class Cell>
   return probabilities;
 }
 
-/// Those cells in one word each.
+/// Those cells in one word each. Throws std::invalid_argument for bad thresholds. O(cells).
 template <class Cell, int Dim>
 [[nodiscard]] OccupancyGrid<Dim> belief_occupancy(const Map<Cell, Dim>& map,
                                                   const OccupancyThresholds& thresholds = {}) {

@@ -13,8 +13,8 @@ namespace incognita {
 
 /// How a belief is written as a map_server map.
 struct BeliefImageParams {
-  MapMode mode = MapMode::trinary;
-  MapImage format = MapImage::png;
+  MapMode mode = MapMode::trinary;      ///< what pixels say
+  MapImage format = MapImage::png;      ///< of the image
   OccupancyThresholds thresholds = {};  ///< of trinary mode
 };
 

@@ -25,7 +25,7 @@ enum class CarmenMessage {
 
 /// How a log is written.
 struct CarmenWriterParams {
-  CarmenMessage message = CarmenMessage::robot_laser;
+  CarmenMessage message = CarmenMessage::robot_laser;  ///< that scans become
   /// What readings that say nothing (NaN, infinite, not positive) are written as, for programs that do not know
   /// "nan": a code above all other readings, > 0. Without it, as nan.
   std::optional<double> no_return_m;

@@ -31,8 +31,8 @@ concept NpyNumber = std::same_as<Number, float> || std::same_as<Number, double> 
 /// values[i * columns + j].
 template <NpyNumber Number>
 struct NpyArray {
-  std::vector<std::size_t> shape;
-  std::vector<Number> values;
+  std::vector<std::size_t> shape;  ///< how many there are along each axis
+  std::vector<Number> values;      ///< in C's order
 };
 
 /// No array file is larger than this.

@@ -38,19 +38,19 @@ namespace incognita {
 struct OctoMapDefaults {
   static constexpr double probability_hit = 0.7;             ///< 0.847
   static constexpr double probability_miss = 0.4;            ///< -0.405
-  static constexpr double occupancy_threshold = 0.5;         ///< 0: a node is occupied from it on
-  static constexpr double clamping_threshold_min = 0.1192;   ///< -2.000
-  static constexpr double clamping_threshold_max = 0.971;    ///< 3.511
+  static constexpr double occupancy_threshold = 0.5;         ///< a probability; log-odds 0: a node is occupied from it on
+  static constexpr double clamping_threshold_min = 0.1192;   ///< a probability; log-odds -2.000
+  static constexpr double clamping_threshold_max = 0.971;    ///< a probability; log-odds 3.511
 };
 
 /// No .bt file is larger than this, and no grid that is made of one has more cells.
 inline constexpr std::size_t octomap_file_size_max_bytes = std::size_t{1} << 28;
-inline constexpr std::int64_t octomap_cells_max = std::int64_t{1} << 28;
+inline constexpr std::int64_t octomap_cells_max = std::int64_t{1} << 28;  ///< of such a grid
 
 /// The part of a tree, in z, that becomes a plane: the voxels that reach into [lower_m, upper_m).
 struct OctoMapHeights {
-  double lower_m = -std::numeric_limits<double>::infinity();
-  double upper_m = std::numeric_limits<double>::infinity();
+  double lower_m = -std::numeric_limits<double>::infinity();  ///< above the tree's origin
+  double upper_m = std::numeric_limits<double>::infinity();   ///< likewise, > lower_m
 };
 
 namespace detail {

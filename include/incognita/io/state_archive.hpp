@@ -92,7 +92,7 @@ class ParameterLines {
     (add(next_name(names), values), ...);
   }
 
-  [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
+  [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }  ///< in the order in which they are listed
 
  private:
   /// The numbers of a value that is no parameter, such as a pose.
@@ -153,7 +153,7 @@ class ParameterLines {
 
 /// Writes states: numbers as they are in memory, little-endian; vectors after their length, in 8 bytes; optional values after a byte
 /// that says whether they are there. A value of another kind must have
-///   template <class Archive> void archive_state(Archive& archive);
+///   `template <class Archive> void archive_state(Archive& archive);`
 /// which names its members to the archive, in an order that stays, and serves for reading too. What archives offer it:
 ///   archive(a, b, c)                  each of them, one after the other
 ///   archive.each(vector)              the elements of a vector whose length is known to both sides
@@ -161,13 +161,15 @@ class ParameterLines {
 ///   Archive::is_loading, archive.require(holds, what), archive.claim(count, bytes)   for readers, see StateReader
 class StateWriter {
  public:
-  static constexpr bool is_loading = false;
+  static constexpr bool is_loading = false;  ///< values are written
 
+  /// Writes each of them, one after the other.
   template <class... Values>
   void operator()(const Values&... values) {
     (write(values), ...);
   }
 
+  /// Writes the elements without their number.
   template <class T>
   void each(const std::vector<T>& values) {
     if constexpr (detail::is_plain<T>) {
@@ -177,15 +179,16 @@ class StateWriter {
     }
   }
 
+  /// Notes the parameters of a value.
   template <class T>
   void check(const char* name, const T& of) {
     const ParameterLines named(name, of);
     for (const std::string& line : named.lines()) parameters_ += line + '\n';
   }
 
-  static void require(bool /*holds*/, const char* /*what*/) {}
+  static void require(bool /*holds*/, const char* /*what*/) {}  ///< never throws: what is there holds
 
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }  ///< written so far
   /// The lines of what check was called with.
   [[nodiscard]] const std::string& parameters() const { return parameters_; }
 
@@ -234,19 +237,21 @@ class StateWriter {
 /// times the bytes and memory_least_bytes.
 class StateReader {
  public:
-  static constexpr bool is_loading = true;
-  static constexpr std::size_t memory_factor = 16;
-  static constexpr std::size_t memory_least_bytes = 1U << 20U;
+  static constexpr bool is_loading = true;                       ///< values are read
+  static constexpr std::size_t memory_factor = 16;               ///< see above
+  static constexpr std::size_t memory_least_bytes = 1U << 20U;  ///< likewise
 
   /// The bytes and the parameters' lines must outlive the reader.
   StateReader(std::string_view bytes, std::string_view parameters, std::string source)
       : unread_(bytes), parameters_(parameters), source_(std::move(source)), memory_left_(memory_factor * bytes.size() + memory_least_bytes) {}
 
+  /// Reads each of them, one after the other. Throws InputError.
   template <class... Values>
   void operator()(Values&... values) {
     (read(values), ...);
   }
 
+  /// Reads the elements of a vector that has its size already. Throws InputError.
   template <class T>
   void each(std::vector<T>& values) {
     if constexpr (detail::is_plain<T>) {
@@ -257,6 +262,7 @@ class StateReader {
     }
   }
 
+  /// Throws InputError when a parameter of a value is not the one that was noted.
   template <class T>
   void check(const char* name, const T& of) {
     const ParameterLines named(name, of);
@@ -274,7 +280,7 @@ class StateReader {
     if (!holds) throw InputError(source_, std::string("is not valid: ") + what);
   }
 
-  /// Asks for the memory of `count` things of so many bytes.
+  /// Asks for the memory of `count` things of so many bytes. Throws InputError when there is not so much.
   void claim(std::uint64_t count, std::size_t bytes_each) {
     require(count <= memory_left_ / bytes_each, "more is said to be in it than can be");
     memory_left_ -= static_cast<std::size_t>(count) * bytes_each;

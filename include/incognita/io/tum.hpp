@@ -25,7 +25,7 @@ struct TimedPose2 {
   double time_s = 0.0;  ///< of its stamp
   Pose2 pose;           ///< T_frame_robot
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(time_s, pose);

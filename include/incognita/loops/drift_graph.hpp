@@ -68,7 +68,7 @@ class DriftGraph {
     return twists;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(bodies_, links_);

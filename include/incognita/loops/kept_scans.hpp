@@ -69,7 +69,7 @@ class KeptScans {
     return farthest_m;
   }
 
-  /// For archives of states, see docs/mission_file.md. Scans must be tied to one of `pieces` pieces of the map.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws. Scans must be tied to one of `pieces` pieces of the map.
   template <class Archive>
   void archive_state(Archive& archive, std::size_t pieces) {
     std::size_t patterns = patterns_.size();

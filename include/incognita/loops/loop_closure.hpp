@@ -60,7 +60,7 @@ class LoopClosure {
       require(scans_max >= 2, "LoopClosure", "scans_max", scans_max, ">= 2");
     }
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Fields>
     void list_fields(Fields& fields) const {
       fields(
@@ -160,7 +160,7 @@ class LoopClosure {
   [[nodiscard]] const KeptScans& kept() const { return kept_; }  ///< the scans to draw the belief from
   [[nodiscard]] const DriftGraph& graph() const { return graph_; }  ///< the pieces of the map and what ties them
 
-  /// For archives of states, see docs/mission_file.md. `pieces` is how many pieces the map has.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws. `pieces` is how many pieces the map has.
   template <class Archive>
   void archive_state(Archive& archive, std::size_t pieces) {
     archive.check("loops", params_);

@@ -47,8 +47,8 @@ struct CellLayers {
     blocks = (blocks & ~cells) | are_blocked;
   }
 
-  /// Nothing is changed any more. O(tiles changed).
-  /// Nothing is changed any more. O(tiles changed).
+  /// For archives of states, see docs/mission_file.md: what of the cells of `box` was written and changed. Which of them are blocked or
+  /// ignore passes is for the map to find again. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive, const IndexBox<Dim>& box) {
     archive(written, changed_tiles);
@@ -71,6 +71,7 @@ struct CellLayers {
     archive.require(is_in_box(written) && is_in_box(changed), "bits are set outside of the map");
   }
 
+  /// Nothing is changed any more. O(tiles changed).
   void forget_changes() {
     for (const Index<Dim>& tile : changed_tiles) changed.tiles()[changed.tiles().offset_of(tile)] = 0;
     changed_tiles.clear();

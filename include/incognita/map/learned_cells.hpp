@@ -30,7 +30,7 @@ class LearnedCells {
 
   [[nodiscard]] std::size_t count() const { return count_; }  ///< how many; never falls
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(known_);

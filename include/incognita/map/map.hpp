@@ -32,7 +32,7 @@ struct MapParams {
   /// A predicted ray ends in the first cell with log-odds above this; all other cells, unknown ones too, are transparent.
   float blocked_above = 0.4F;
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("resolution_m, hit_push_cells, blocked_above", resolution_m, hit_push_cells, blocked_above);
@@ -151,7 +151,7 @@ class Map {
     grow_to_include(lattice().cells_of(box_m));
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("map", params_);

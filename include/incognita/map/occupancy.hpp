@@ -56,7 +56,7 @@ struct OccupancyThresholds {
             "> 0");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("free_below, occupied_above", free_below, occupied_above);

@@ -24,7 +24,7 @@ struct ScanReport {
   std::size_t beams_used = 0;     ///< hits, and beams that met nothing
   std::size_t beams_ignored = 0;  ///< NaN, infinite, negative or out of range
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(beams_used, beams_ignored);

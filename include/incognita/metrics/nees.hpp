@@ -77,7 +77,7 @@ class MeanNees {
   /// Likewise without a unit, of position and heading.
   [[nodiscard]] double pose() const { return count_ == 0 ? 0.0 : pose_sum_ / static_cast<double>(count_); }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(position_sum_, pose_sum_, count_);

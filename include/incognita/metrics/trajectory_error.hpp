@@ -39,7 +39,7 @@ class TrajectoryError {
   [[nodiscard]] double translation_max_m() const { return translation_max_m_; }  ///< the largest distance
   [[nodiscard]] double heading_rmse_rad() const { return std::sqrt(mean(squared_turns_rad2_)); }  ///< of the turns between them
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(distances_m_, squared_distances_m2_, squared_turns_rad2_, translation_max_m_, count_);

@@ -50,7 +50,7 @@ struct AllowedArea {
     return area;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("bounds, no_go", bounds, no_go);

@@ -38,7 +38,7 @@ struct CollisionGuardParams {
     require_positive("CollisionGuardParams", "speed_min_m_per_s", speed_min_m_per_s);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(

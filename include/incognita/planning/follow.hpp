@@ -47,7 +47,7 @@ struct FollowParams {
     require_positive("FollowParams", "goal_tolerance_m", goal_tolerance_m);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(
@@ -93,7 +93,7 @@ class PathFollower {
 
   [[nodiscard]] const Polyline& path() const { return path_; }  ///< as given
 
-  /// For archives of states, see docs/mission_file.md. The parameters stay as they are.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws. The parameters stay as they are.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(path_, progress_m_, turning_, finished_);

@@ -40,7 +40,7 @@ struct RetreatParams {
     require(blocked_scans_max >= 0, "RetreatParams", "blocked_scans_max", blocked_scans_max, ">= 0");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(
@@ -117,7 +117,7 @@ class Retreat {
     return allowed;
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(from_m_, heading_rad_, blocked_scans_);

@@ -58,7 +58,7 @@ struct TravelParams {
             "escape_cost_per_m", escape_cost_per_m, "finite and > 1 + clearance_weight");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(
@@ -185,7 +185,7 @@ class TravelCostField {
   [[nodiscard]] const Eigen::Vector2d& start_m() const { return start_m_; }  ///< where all ways begin
   [[nodiscard]] const Lattice<2>& lattice() const { return cost_m_.lattice(); }  ///< of the cells
 
-  /// For archives of states, see docs/mission_file.md: where the robot has clearance and what a metre costs. A field that was loaded
+  /// For archives of states, see docs/mission_file.md, throws what the archive throws: where the robot has clearance and what a metre costs. A field that was loaded
   /// reaches nothing until restart.
   template <class Archive>
   void archive_state(Archive& archive) {

@@ -22,7 +22,7 @@ struct DvlVariances {
             unoccupied_m2, "finite and > occupied_m2");
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("occupied_m2, unoccupied_m2", occupied_m2, unoccupied_m2);

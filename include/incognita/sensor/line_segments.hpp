@@ -36,7 +36,7 @@ struct LineSegmentParams {
     require_positive("LineSegmentParams", "noise_m", noise_m);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("gap_max_m, deviation_max_m, length_min_m, points_min, noise_m", gap_max_m, deviation_max_m, length_min_m, points_min, noise_m);

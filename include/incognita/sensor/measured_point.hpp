@@ -20,7 +20,7 @@ struct RangeBearingNoise {
     require_non_negative("RangeBearingNoise", "bearing_rad", bearing_rad);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("range_m, bearing_rad", range_m, bearing_rad);

@@ -33,7 +33,7 @@ struct BeamPattern {
     }
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(directions, range_min_m, range_max_m);
@@ -117,7 +117,7 @@ class Scan {
     return scaled(direction(beam), range_m(beam) + extra_m);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(beams_, ranges_m_);

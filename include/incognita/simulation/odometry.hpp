@@ -17,7 +17,7 @@ struct OdometryParams {
   double speed_sigma_m_per_s = 0.05;        ///< >= 0
   double turn_rate_sigma_rad_per_s = 0.02;  ///< >= 0
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("speed_sigma_m_per_s, turn_rate_sigma_rad_per_s", speed_sigma_m_per_s, turn_rate_sigma_rad_per_s);
@@ -42,7 +42,7 @@ class Odometry {
     return unicycle_motion({speed_m_per_s, turn_rate_rad_per_s}, duration_s);
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("odometry", params_);

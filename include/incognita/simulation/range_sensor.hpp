@@ -51,7 +51,7 @@ class RangeSensor {
 
   [[nodiscard]] const Scan<2>& scan() const { return scan_; }  ///< the last one measured
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(random_, scan_);

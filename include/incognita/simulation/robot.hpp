@@ -22,7 +22,7 @@ struct RobotParams {
   double speed_max_m_per_s = 1.0;        ///< > 0, forwards and backwards
   double turn_rate_max_rad_per_s = 1.0;  ///< > 0
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields("radius_m, speed_max_m_per_s, turn_rate_max_rad_per_s", radius_m, speed_max_m_per_s, turn_rate_max_rad_per_s);
@@ -81,7 +81,7 @@ class Robot {
     return {std::copysign(driven_m / duration_s, twist.speed_m_per_s), twist.turn_rate_rad_per_s};
   }
 
-  /// For archives of states, see docs/mission_file.md.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("robot", params_);

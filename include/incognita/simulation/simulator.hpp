@@ -74,7 +74,7 @@ class Simulator {
   /// The true pose as an estimator would have it, which starts at identity.
   [[nodiscard]] Pose2 T_start_robot() const { return T_start_world_ * robot_.T_world_robot(); }
 
-  /// For archives of states, see docs/mission_file.md. The world, the start and how often what is measured must be the same.
+  /// For archives of states, see docs/mission_file.md. Throws what the archive throws. The world, the start and how often what is measured must be the same.
   template <class Archive>
   void archive_state(Archive& archive) {
     archive(robot_, odometry_, sensor_, steps_);

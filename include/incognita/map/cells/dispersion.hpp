@@ -40,7 +40,7 @@ class BasicDispersion {
     double log_odds_min = -10.0;  ///< in [-31, -1/512]
     double log_odds_max = 10.0;   ///< in [1/512, 31]
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Fields>
     void list_fields(Fields& fields) const {
       fields(
@@ -58,7 +58,7 @@ class BasicDispersion {
     std::uint16_t occupancy : 15 = occupancy_zero;  ///< in steps of 1/512 of log-odds, from occupancy_zero
     bool is_explored : 1 = false;                   ///< whether a scan ever saw it
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Archive>
     void archive_state(Archive& archive) {
       auto bits = static_cast<std::uint16_t>(occupancy | (is_explored ? 0x8000U : 0U));

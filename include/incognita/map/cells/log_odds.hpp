@@ -21,7 +21,7 @@ class LogOdds {
     float log_odds_max = 10.0F;   ///< > 0
     bool hits_win = true;         ///< passes of a scan leave alone what the same scan hit
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Fields>
     void list_fields(Fields& fields) const {
       fields("hit, pass, log_odds_min, log_odds_max, hits_win", hit, pass, log_odds_min, log_odds_max, hits_win);
@@ -41,7 +41,7 @@ class LogOdds {
     float log_odds = 0.0F;  ///< natural; 0 is unknown
     ScanStamp hit_by = 0;   ///< the last scan that hit the cell
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Archive>
     void archive_state(Archive& archive) {
       archive(log_odds, hit_by);

@@ -41,7 +41,7 @@ class TBayes {
     double erosion_residual_m = 0.6;     ///< robust: erosion only where the beam goes on for longer, >= 0 ...
     double erosion_residual_sigmas = 3;  ///< ... and for longer than this many standard deviations of the pose along the beam
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Fields>
     void list_fields(Fields& fields) const {
       fields(
@@ -65,7 +65,7 @@ class TBayes {
     ScanStamp settled_by = 0;  ///< the last scan that hit or eroded the cell
     std::uint8_t hits = 0;     ///< N_a of (14)
 
-    /// For archives of states, see docs/mission_file.md.
+    /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
     template <class Archive>
     void archive_state(Archive& archive) {
       archive(log_odds, settled_by, hits);
