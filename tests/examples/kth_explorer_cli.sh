@@ -69,7 +69,7 @@ output=blocked refused "a result whose name is a folder" overview.png --duration
 rm -r blocked
 
 help_names help map cells frontiers entropy alpha filter compass loops strategy information navigation radius bounds \
-  no-go return duration seed start resolution threads output quiet
+  no-go return duration seed start resolution threads output report quiet
 
 # run NAME ARGUMENTS...: 20 s of a mission into the folder NAME.
 run() { run_quietly "$@" --duration 20 --seed 1; }
@@ -116,6 +116,16 @@ grep -q '"returned": null' one/metrics.json || fail "returned though not asked t
 # 20 s of exploration, and the way back.
 awk '$1 > 20.5 { later = 1 } END { exit !later }' part/trajectory_true.tum || fail "the way back is not in the trajectory"
 awk -F, 'NR > 1 && $1 > 20.0 { exit 1 }' part/progress.csv || fail "the way back is in the progress"
+
+# The report, and the recording that it is of, beside all else, which they do not change.
+run reported --threads 1 --report
+same_metrics one reported
+[ "$(ls -A reported | wc -l)" -eq 10 ] || fail "other files than promised: $(ls -A reported)"
+for file in recording.incognita report.html; do
+  [ -s reported/$file ] || fail "$file is missing or empty"
+done
+grep -q '<title>incognita: embedded floor plan</title>' reported/report.html || fail "the title of the report"
+grep -q "$work" reported/report.html && fail "a path is in the report"
 
 times=$(tail -n +2 one/progress.csv | cut -d, -f1 | tr '\n' ' ')
 [ "$times" = "$(seq -s ' ' 1 20) " ] || fail "progress.csv has not a line each second: $times"
