@@ -76,6 +76,16 @@ install_packages() {
   step "${install[@]}"
 }
 
+# The packages that a browser test needs and whose programs are not there, wherever they are from: another npm than Debian's
+# does not go together with Debian's.
+missing_browser_packages() {
+  local missing=()
+  command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome-stable >/dev/null || missing+=(chromium)
+  command -v node >/dev/null || missing+=(nodejs)
+  command -v npm >/dev/null || missing+=(npm)
+  echo "${missing[*]}"
+}
+
 # How many compilers to run at once: one for each processor, and 2 GB of free memory for each.
 job_count() {
   local processors memory_kb

@@ -326,7 +326,7 @@ inline void add_plan(Columns& columns, nlohmann::ordered_json& about, const inco
                    {"upper_m", corner_m(plan.box().upper)}};
   std::vector<std::uint32_t> starts{0};
   std::vector<float> points_m;
-  // Walls that are drawn askew in pixels are straight again.
+  // Walls at 45 degrees are straight again, and those of one pixel keep their two sides.
   for (const Points& outline : wall_outlines(plan, 0.75 * plan.resolution_m())) {
     for (const auto& point_m : outline) {
       for (int axis = 0; axis < 2; ++axis) points_m.push_back(rounded_m(point_m[axis]));

@@ -185,6 +185,15 @@ refused "a mission of another filter" 'filter.start' --resume first.mission --fi
 refused "a mission of another resolution" 'map.resolution_m = 0.1' --resume first.mission --resolution 0.2
 refused "a mission of another radius" 'explorer.travel.robot_radius_m = 0.2' --resume first.mission --radius 0.25
 refused "a mission that has lasted longer" 'has lasted 20' --resume first.mission --duration 10
+# The report, and the recording that it is of, beside all else, which they do not change.
+run reported --threads 1 --report
+same_metrics one reported
+[ "$(ls -A reported | wc -l)" -eq 10 ] || fail "other files than promised: $(ls -A reported)"
+for file in recording.incognita report.html; do
+  [ -s reported/$file ] || fail "$file is missing or empty"
+done
+grep -q '<title>incognita: embedded floor plan</title>' reported/report.html || fail "the title of the report"
+grep -q "$work" reported/report.html && fail "a path is in the report"
 
 times=$(tail -n +2 one/progress.csv | cut -d, -f1 | tr '\n' ' ')
 [ "$times" = "$(seq -s ' ' 1 20) " ] || fail "progress.csv has not a line each second: $times"

@@ -9,8 +9,6 @@ class Pane {
     this.part('.pane-distinction').textContent = distinction;
     this.#say();
     const canvas = this.part('canvas');
-    const [left, bottom, right, top] = floorBounds(run);
-    canvas.style.setProperty('--aspect', String((right - left) / (top - bottom)));
     canvas.setAttribute('aria-label', `Map of ${run.name} at the time shown: the belief with the robot, its scan and its candidates`);
     this.map = new MapView(run, canvas, options.hiddenLayers, (map) => {
       this.#showFollow();

@@ -165,7 +165,7 @@ class Plot {
         plugins: { legend: { display: false }, tooltip: { enabled: false } },
         scales: {
           x: { type: 'linear', min: 0, max: this.duration, grid: {}, ticks: { ...ticks(), callback: (value) => clock(value), stepSize: timeStep(this.duration) } },
-          y: { type: 'linear', min: bottom, max: highest, grid: {}, ticks: { ...ticks(), maxTicksLimit: 5, callback: (value) => (Math.abs(value) >= 10000 ? `${shortNumber(value / 1000)}k` : shortNumber(value)) }, afterFit: (scale) => { scale.width = 46; } },
+          y: { type: 'linear', min: bottom, max: highest, grid: {}, ticks: { ...ticks(), maxTicksLimit: 5, includeBounds: false, callback: (value) => (Math.abs(value) >= 10000 ? `${shortNumber(value / 1000)}k` : shortNumber(value)) }, afterFit: (scale) => { scale.width = 46; } },
         },
       },
     });

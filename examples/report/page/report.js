@@ -80,6 +80,8 @@ async function showReport() {
   const runs = await Promise.all([...document.querySelectorAll('script.run')].map((script) => unpackRun(script.textContent)));
   document.body.dataset.runs = String(runs.length);
   document.body.style.setProperty('--runs', String(runs.length));
+  const aspects = runs.map(floorBounds).map(([left, bottom, right, top]) => (right - left) / (top - bottom));
+  document.body.style.setProperty('--aspect', String(aspects.reduce((sum, aspect) => sum + aspect / runs.length, 0)));
   const hiddenLayers = new Set();
   const panes = [];
   let follows = false;

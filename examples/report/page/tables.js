@@ -50,5 +50,5 @@ function distinctions(runs) {
   if (runs.length < 2) return [''];
   const names = Object.keys(runs[0].parameters).filter(
     (name) => name in runs[1].parameters && shownValue(runs[0].parameters[name]) !== shownValue(runs[1].parameters[name]) && !/output|threads|report|record/.test(name));
-  return runs.map((run) => names.slice(0, 3).map((name) => `${plainName(name.split('.').at(-1))} ${shownValue(run.parameters[name])}`).join(', '));
+  return runs.map((run) => names.slice(0, 3).map((name) => `${plainName(name.split('.').at(-1))} ${shownValue(run.parameters[name])} ${unitOf(name)}`.trim()).join(', '));
 }
