@@ -1,15 +1,23 @@
 /// All that a mission was made with, by name.
 #pragma once
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include <nlohmann/json.hpp>
 
-#include "incognita/exploration/explorer_params.hpp"
+#include "incognita/io/state_archive.hpp"
 #include "kth_explorer/options.hpp"
+#include "kth_explorer/saved_mission.hpp"
 
 namespace kth_explorer {
 
-/// The options of the command line, then the parameters of the parts that have any, a group each. A duration that is not bounded is null.
+/// The options of the command line as "mission", then the parameters of the explorer's parts, a group each; what a part was given by the
+/// parameters of another is listed with those alone.
 template <class Explorer>
 [[nodiscard]] nlohmann::ordered_json parameters_json(const Explorer& explorer, const Options& options) {
   nlohmann::ordered_json json;
@@ -24,47 +32,31 @@ template <class Explorer>
   mission["filter"] = options.filter;
   mission["compass"] = options.compass;
   mission["loops"] = options.loops;
+  mission["strategy"] = options.strategy;
+  mission["information"] = options.information;
+  mission["navigation"] = options.navigation;
   mission["returns"] = options.returns;
 
-  const incognita::ExplorerParams& params = explorer.params();
-  json["map"] = {{"resolution_m", explorer.map().resolution_m()},
-                 {"hit_push_m", explorer.map().hit_push_m()},
-                 {"blocked_above", explorer.map().blocked_above()},
-                 {"free_below", params.thresholds.free_below},
-                 {"occupied_above", params.thresholds.occupied_above}};
-  json["decision"] = {{"strategy", options.strategy},
-                      {"information", options.information},
-                      {"navigation", options.navigation},
-                      {"travel_offset_m", params.travel_offset_m},
-                      {"candidates_max", params.candidates_max},
-                      {"visibility_tolerance_m", params.visibility_tolerance_m},
-                      {"information_min_m2", params.information_min_m2},
-                      {"gain_min_cells", params.gain_min_cells},
-                      {"decision_interval_s", params.decision_interval_s},
-                      {"blocked_max_s", params.blocked_max_s},
-                      {"position_sigma_max_m", params.position_sigma_max_m},
-                      {"lost_max_s", params.lost_max_s}};
-  json["gain"] = {{"pose_spacing_m", params.gain.pose_spacing_m},
-                  {"beams", params.gain.beams},
-                  {"range_max_m", params.gain.range_max_m},
-                  {"speed_m_per_s", params.gain.speed_m_per_s},
-                  {"scan_rate_hz", params.gain.scan_rate_hz}};
-  json["travel"] = {{"robot_radius_m", params.travel.robot_radius_m},
-                    {"margin_m", params.travel.margin_m},
-                    {"clearance_soft_m", params.travel.clearance_soft_m},
-                    {"clearance_weight", params.travel.clearance_weight},
-                    {"escape_radius_m", params.travel.escape_radius_m},
-                    {"escape_cost_per_m", params.travel.escape_cost_per_m}};
-  json["follow"] = {{"speed_max_m_per_s", params.follow.speed_max_m_per_s},
-                    {"turn_rate_max_rad_per_s", params.follow.turn_rate_max_rad_per_s},
-                    {"deceleration_m_per_s2", params.follow.deceleration_m_per_s2},
-                    {"lookahead_m", params.follow.lookahead_m},
-                    {"aside_max_m", params.follow.aside_max_m},
-                    {"goal_tolerance_m", params.follow.goal_tolerance_m}};
-  json["guard"] = {{"margin_m", params.guard.margin_m},
-                   {"creep_margin_m", params.guard.creep_margin_m},
-                   {"creep_speed_m_per_s", params.guard.creep_speed_m_per_s},
-                   {"reaction_time_s", params.guard.reaction_time_s}};
+  incognita::StateWriter writer;
+  writer(explorer);
+  const std::string all = '\n' + writer.parameters();
+  const auto is_listed_of = [&](const char* part, std::string_view line) {
+    return all.find('\n' + (part + std::string(line)) + '\n') != std::string::npos;
+  };
+  std::string_view lines = writer.parameters();
+  while (!lines.empty()) {  // GROUP.NAME = VALUE
+    const std::string_view line = lines.substr(0, lines.find('\n'));
+    lines.remove_prefix(std::min(line.size() + 1, lines.size()));
+    if (is_listed_of("explorer.", line) || is_listed_of("filter.", line)) continue;
+    const std::size_t dot = line.find('.');
+    const std::size_t equals = line.find(" = ");
+    const std::string_view text = line.substr(equals + 3);
+    auto& value = json[std::string(line.substr(0, dot))][std::string(line.substr(dot + 1, equals - dot - 1))];
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+    value = is_number ? nlohmann::ordered_json(number) : nlohmann::ordered_json(std::string(text));
+  }
   return json;
 }
 

@@ -138,7 +138,7 @@ for file in trajectory_estimated.tum trajectory_true.tum map.yaml map.png progre
 done
 decided() { rev "$1/decisions.csv" | cut -d, -f2- ; }  # but for how long it took
 [ "$(decided one)" = "$(decided recorded)" ] || fail "decisions.csv differs when the run is recorded"
-[ "$(ls -A recorded | wc -l)" -eq 9 ] || fail "other files than promised: $(ls -A recorded)"
+[ "$(ls -A recorded | wc -l)" -eq 12 ] || fail "other files than promised: $(ls -A recorded)"
 [ "$(head -c 8 recorded/recording.incognita)" = INCOGREC ] || fail "recording.incognita is none"
 grep -aq '"stop_reason":"out_of_time"' recorded/recording.incognita || fail "the recording does not say how the run ended"
 grep -aq '"seed":1' recorded/recording.incognita || fail "the recording does not say what the run was made with"
@@ -185,10 +185,11 @@ refused "a mission of another filter" 'filter.start' --resume first.mission --fi
 refused "a mission of another resolution" 'map.resolution_m = 0.1' --resume first.mission --resolution 0.2
 refused "a mission of another radius" 'explorer.travel.robot_radius_m = 0.2' --resume first.mission --radius 0.25
 refused "a mission that has lasted longer" 'has lasted 20' --resume first.mission --duration 10
+
 # The report, and the recording that it is of, beside all else, which they do not change.
 run reported --threads 1 --report
 same_metrics one reported
-[ "$(ls -A reported | wc -l)" -eq 10 ] || fail "other files than promised: $(ls -A reported)"
+[ "$(ls -A reported | wc -l)" -eq 13 ] || fail "other files than promised: $(ls -A reported)"
 for file in recording.incognita report.html; do
   [ -s reported/$file ] || fail "$file is missing or empty"
 done
