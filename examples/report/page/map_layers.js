@@ -220,7 +220,11 @@ function drawEllipse(context, scene) {
   context.lineWidth = 2;
   context.stroke();
   context.setLineDash([]);
-  if (times > 1) haloText(context, scene, `3σ × ${times}`, x + major * view.scale * times + 6, y - 8);
+  if (times > 1) {
+    const aside = major * view.scale * times + 6;
+    const hasRoom = x + aside + 70 < view.size[0];
+    haloText(context, scene, `3σ × ${times}`, hasRoom ? x + aside : x - aside - 58, y - 8);
+  }
 }
 
 function haloText(context, { colors }, text, x, y) {

@@ -164,7 +164,7 @@ class Plot {
         elements: { point: { radius: 0, hitRadius: 0 }, line: { tension: 0 } },
         plugins: { legend: { display: false }, tooltip: { enabled: false } },
         scales: {
-          x: { type: 'linear', min: 0, max: this.duration, grid: {}, ticks: { ...ticks(), callback: (value) => clock(value), stepSize: timeStep(this.duration) } },
+          x: { type: 'linear', min: 0, max: this.duration, grid: {}, ticks: { ...ticks(), callback: (value) => clock(value) }, afterBuildTicks: (scale) => { scale.ticks = timeTicks(this.duration); } },
           y: { type: 'linear', min: bottom, max: highest, grid: {}, ticks: { ...ticks(), maxTicksLimit: 5, includeBounds: false, callback: (value) => (Math.abs(value) >= 10000 ? `${shortNumber(value / 1000)}k` : shortNumber(value)) }, afterFit: (scale) => { scale.width = 46; } },
         },
       },
@@ -214,9 +214,10 @@ class Plot {
   }
 }
 
-// At most seven ticks.
-function timeStep(duration) {
-  return [10, 20, 30, 60, 120, 180, 300, 600, 900, 1800, 3600].find((step) => duration / step <= 7) ?? 7200;
+// At most seven, at round times.
+function timeTicks(duration) {
+  const step = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200].find((seconds) => duration / seconds <= 7) ?? duration / 7;
+  return Array.from({ length: Math.floor(duration / step + 1e-6) + 1 }, (_, i) => ({ value: i * step }));
 }
 
 function niceCeiling(value) {
