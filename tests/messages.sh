@@ -48,7 +48,7 @@ find include examples -name '*.[ch]pp' | LC_ALL=C sort | perl -CSD -Mutf8 -e '
       }
     }
   }
-  sub plain { my $t = shift; $t =~ s/\\(["\\])/$1/g; return $t }
+  sub plain { my $t = shift; $t =~ s/\\(["\\])/$1/g; $t =~ s/\\n/ /g; return $t }
   $strings = plain($strings);
   if ($list) {
     my %seen;

@@ -76,6 +76,7 @@ class ByteWriter {
     bytes_ += text;
   }
 
+  /// All that was written.
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
   /// Keeps its storage.
@@ -92,6 +93,7 @@ class ByteReader {
   /// The bytes must outlive it, and so must `file`, which with `first_byte`, their place in it, is only named in errors.
   ByteReader(std::string_view bytes, std::string_view file, std::size_t first_byte = 0) : bytes_(bytes), file_(file), first_byte_(first_byte) {}
 
+  /// How many bytes were not taken yet.
   [[nodiscard]] std::size_t left() const { return bytes_.size() - place_; }
 
   /// Where in the file the next byte is.
@@ -111,6 +113,7 @@ class ByteReader {
     return {raw(size), file_, first};
   }
 
+  /// A number as wide as its type.
   template <ByteNumber Number>
   [[nodiscard]] Number number() {
     return detail::from_little_endian<Number>(raw(sizeof(Number)));
@@ -124,6 +127,7 @@ class ByteReader {
     return value;
   }
 
+  /// Of at most 64 bits. It may be longer than it need be.
   [[nodiscard]] std::uint64_t varint() {
     std::uint64_t value = 0;
     for (unsigned shift = 0; shift < 64; shift += 7) {
@@ -135,6 +139,7 @@ class ByteReader {
     fail("a number of more than 64 bits");
   }
 
+  /// See ByteWriter::signed_varint.
   [[nodiscard]] std::int64_t signed_varint() {
     const std::uint64_t value = varint();
     return static_cast<std::int64_t>(value >> 1U) ^ -static_cast<std::int64_t>(value & 1U);
@@ -159,8 +164,10 @@ class ByteReader {
     return static_cast<std::size_t>(value);
   }
 
+  /// A copy of a text, whatever its bytes are.
   [[nodiscard]] std::string text() { return std::string(raw(count(1))); }
 
+  /// A byte of 0 or 1.
   [[nodiscard]] bool flag() {
     const auto value = number<std::uint8_t>();
     if (value > 1) fail("a flag of " + std::to_string(value) + ", which must be 0 or 1");

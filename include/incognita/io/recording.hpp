@@ -33,8 +33,8 @@ struct RecordingSetup {
   double log_odds_step = 0.5;               ///< what levels of cells are multiples of, in nats
   double free_below = -1.0;                 ///< cells with log-odds below are free
   double occupied_above = 1.0;              ///< cells with log-odds above are occupied
-  double robot_radius_m = 0.2;
-  double range_max_m = 10.0;
+  double robot_radius_m = 0.2;              ///< of the disc that stands for it, in metres
+  double range_max_m = 10.0;                ///< of the scans, in metres
   std::vector<float> beam_angles_rad;       ///< of the scans, in the robot's frame
   std::vector<std::string> metric_names;    ///< of the numbers in each frame, with their units
   std::optional<FloorPlan> plan;            ///< the true walls, where they are known
@@ -62,9 +62,9 @@ struct RecordingSetup {
 
 /// The cells of one tile whose level has changed, the lowest bit first.
 struct RecordedTile {
-  Index<2> tile = zero<Index<2>>();
-  CellBits::Word cells = 0;     ///< one bit each, not 0
-  std::size_t first_level = 0;  ///< of these cells, in the frame's levels; one a cell follows
+  Index<2> tile = zero<Index<2>>();  ///< its index, see CellBits
+  CellBits::Word cells = 0;          ///< one bit each, not 0
+  std::size_t first_level = 0;       ///< of these cells, in the frame's levels; one a cell follows
 };
 
 /// One moment of a run, and what has changed since the one before.
@@ -72,16 +72,16 @@ struct RecordedFrame {
   static constexpr std::uint16_t range_units = 65000;    ///< scans count in units of range_max_m / this, which means that nothing was met
   static constexpr std::uint16_t range_invalid = 65535;  ///< the reading was ignored
 
-  double time_s = 0.0;
+  double time_s = 0.0;                                       ///< since the run began, in seconds
   Pose2 pose;                                                ///< as estimated
   Pose2::Covariance covariance = Pose2::Covariance::Zero();  ///< of x, y and yaw; its lower triangle is kept
   std::optional<Pose2> truth;                                ///< where the pose is known
   bool is_trusted = true;                                    ///< the scan was written into the map
-  bool is_lost = false;
+  bool is_lost = false;                                      ///< too many scans in a row were not to be trusted
   bool is_redrawn = false;                                   ///< the whole map was drawn anew since the frame before
   std::vector<std::uint16_t> ranges;                         ///< the scan, none or one a beam
   std::vector<double> metrics;                               ///< one a name of the setup; NaN where there is none
-  std::vector<RecordedTile> tiles;
+  std::vector<RecordedTile> tiles;                           ///< that have changed since the frame before
   std::vector<std::int8_t> levels;                           ///< log-odds by log_odds_step, rounded away from 0
 
   /// Throws std::invalid_argument for what is not finite, for other numbers of ranges and metrics than beams and names of the setup, and for
@@ -107,6 +107,7 @@ struct RecordedFrame {
     require(levels.size() == cells, where, "number of levels", static_cast<double>(levels.size()), "that of the cells of all tiles");
   }
 
+  /// Tiles have indices from minus this to this.
   static constexpr int tile_max = recorded_cell_max / CellBits::tile_side;
 };
 
@@ -127,14 +128,14 @@ struct RecordedCandidate {
   std::array<float, 2> frontier_m{};               ///< a cell of the frontier, near its middle
   std::vector<std::array<float, 2>> path_m;        ///< from the robot to the viewpoint
   float gain_nats = 0.0F;                          ///< BIG
-  float information = 0.0F;
-  float navigation_cost = 0.0F;
-  float utility = 0.0F;
+  float information = 0.0F;                        ///< what the frontier is measured by, in the unit of the FrontierInformation
+  float navigation_cost = 0.0F;                    ///< of getting there, in metres, or 1 (NavigationCost::uniform)
+  float utility = 0.0F;                            ///< information per cost, in their units' ratio
 };
 
 /// What was decided, between what and why.
 struct RecordedDecision {
-  double time_s = 0.0;
+  double time_s = 0.0;                             ///< since the run began, in seconds
   std::string reason;                              ///< why it was decided anew: a name of DecisionReason
   std::string stop_reason;                         ///< a name of StopReason, empty while it goes on
   std::vector<RecordedCandidate> candidates;       ///< highest utility first, the one that was chosen
@@ -165,7 +166,7 @@ struct RecordedEnd {
 
 /// A run as it was recorded, or as much of it as there is.
 struct Recording {
-  RecordingSetup setup;
+  RecordingSetup setup;                            ///< of the whole run
   std::vector<RecordedFrame> frames;               ///< in the order of time
   std::vector<RecordedDecision> decisions;         ///< in the order of time
   std::optional<RecordedEnd> end;                  ///< none when the run was cut short

@@ -26,8 +26,9 @@
 
 namespace incognita {
 
+/// What a recording begins with.
 inline constexpr std::string_view recording_magic = "INCOGREC";
-inline constexpr std::uint32_t recording_version = 1;
+inline constexpr std::uint32_t recording_version = 1;  ///< of the format; no other is read
 
 namespace detail {
 
@@ -70,7 +71,7 @@ class RecordingWriter {
     write(RecordType::frame, [&] { put_frame(record_, frame); });
   }
 
-  /// As for a frame.
+  /// Throws as it does for a frame. O(size of the record).
   void write(const RecordedDecision& decision) {
     decision.validate();
     require(decision.time_s >= decision_s_, "RecordedDecision", "time_s", decision.time_s, "that of the one before or later");
@@ -84,7 +85,7 @@ class RecordingWriter {
     file_.reset();
   }
 
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }  ///< of the file
   [[nodiscard]] std::size_t size_bytes() const { return size_bytes_; }  ///< of the file
 
  private:

@@ -14,7 +14,12 @@
 namespace incognita {
 
 /// What a record holds.
-enum class RecordType : std::uint32_t { setup = 1, frame = 2, decision = 3, end = 4 };
+enum class RecordType : std::uint32_t {
+  setup = 1,     ///< a RecordingSetup: the first record, and only there
+  frame = 2,     ///< a RecordedFrame
+  decision = 3,  ///< a RecordedDecision
+  end = 4        ///< a RecordedEnd: the last record of a run that was not cut short
+};
 
 namespace detail {
 
@@ -75,6 +80,7 @@ inline void put_setup(ByteWriter& bytes, const RecordingSetup& setup) {
   put_floor_plan(bytes, *setup.plan);
 }
 
+/// See put_setup. Throws InputError.
 [[nodiscard]] inline RecordingSetup take_setup(ByteReader& bytes) {
   RecordingSetup setup;
   setup.parameters_json = bytes.text();
@@ -92,6 +98,7 @@ inline void put_setup(ByteWriter& bytes, const RecordingSetup& setup) {
   return setup;
 }
 
+/// See put_setup. O(size of the payload), as for the others.
 inline void put_frame(ByteWriter& bytes, const RecordedFrame& frame) {
   bytes.number(frame.time_s);
   detail::put_pose(bytes, frame.pose);
@@ -114,6 +121,7 @@ inline void put_frame(ByteWriter& bytes, const RecordedFrame& frame) {
   for (const std::int8_t level : frame.levels) bytes.number(level);
 }
 
+/// See put_setup. Throws InputError.
 [[nodiscard]] inline RecordedFrame take_frame(ByteReader& bytes) {
   RecordedFrame frame;
   frame.time_s = bytes.number<double>();
@@ -144,6 +152,7 @@ inline void put_frame(ByteWriter& bytes, const RecordedFrame& frame) {
   return frame;
 }
 
+/// See put_setup.
 inline void put_decision(ByteWriter& bytes, const RecordedDecision& decision) {
   bytes.number(decision.time_s);
   bytes.text(decision.reason);
@@ -160,6 +169,7 @@ inline void put_decision(ByteWriter& bytes, const RecordedDecision& decision) {
   for (const Index<2>& cell : decision.frontier) detail::put_index(bytes, last, cell);
 }
 
+/// See put_setup. Throws InputError.
 [[nodiscard]] inline RecordedDecision take_decision(ByteReader& bytes) {
   RecordedDecision decision;
   decision.time_s = bytes.number<double>();
@@ -180,11 +190,13 @@ inline void put_decision(ByteWriter& bytes, const RecordedDecision& decision) {
   return decision;
 }
 
+/// See put_setup.
 inline void put_end(ByteWriter& bytes, const RecordedEnd& end) {
   bytes.text(end.stop_reason);
   bytes.text(end.metrics_json);
 }
 
+/// See put_setup. Throws InputError.
 [[nodiscard]] inline RecordedEnd take_end(ByteReader& bytes) {
   RecordedEnd end;
   end.stop_reason = bytes.text();

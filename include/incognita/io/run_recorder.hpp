@@ -27,6 +27,7 @@ namespace incognita {
 /// a recorder and without. Not thread safe.
 class RunRecorder {
  public:
+  /// What is recorded.
   struct Params {
     /// Between frames, in the explorer's time, >= 0; 0 records each scan. What happens in between is in the next frame.
     double interval_s = 0.5;
@@ -43,6 +44,7 @@ class RunRecorder {
   RunRecorder(const std::filesystem::path& file, const Explorer& explorer, const Scan<2>& scan, RecordingSetup setup, const Params& params)
       : RunRecorder(file, completed(std::move(setup), explorer, scan), explorer.params().thresholds, scan, params) {}
 
+  /// With default parameters. Throws as above.
   template <class Explorer>
   RunRecorder(const std::filesystem::path& file, const Explorer& explorer, const Scan<2>& scan, RecordingSetup setup = {})
       : RunRecorder(file, explorer, scan, std::move(setup), Params{}) {}
@@ -88,6 +90,7 @@ class RunRecorder {
     next_s_ = last_s_ + params_.interval_s;
   }
 
+  /// Without metrics, of a setup without names of them. Throws as observed() does.
   template <class Explorer>
   void record(const Explorer& explorer, const Scan<2>& scan, const std::optional<Pose2>& truth = std::nullopt) {
     record(explorer, scan, truth, no_metrics);
@@ -122,7 +125,7 @@ class RunRecorder {
   /// The last record; the file is closed. Throws InputError when it cannot be written.
   void ended(const RecordedEnd& end) { writer_.write(end); }
 
-  [[nodiscard]] const std::filesystem::path& file() const { return writer_.path(); }
+  [[nodiscard]] const std::filesystem::path& file() const { return writer_.path(); }  ///< that is written
   [[nodiscard]] std::size_t size_bytes() const { return writer_.size_bytes(); }  ///< of the file so far
 
  private:
