@@ -80,7 +80,7 @@ template <class ExplorerType>
 std::size_t wrong_cells(const Recording& recording, const ExplorerType& explorer) {
   io_test::LevelMap levels;
   for (const RecordedFrame& frame : recording.frames) levels.take(frame);
-  CHECK(levels.size() > 1000);
+  CHECK(levels.size() > 300);
   return levels.count_wrong(explorer.map(), recording.setup, explorer.params().thresholds);
 }
 
@@ -99,11 +99,13 @@ TEST_CASE("a recorded run is the run that is not, to the bit, and what is record
   const io_test::TemporaryFolder folder;
   const double interval_s = GENERATE(0.0, 0.5);
   Simulator alone = test::office_simulator(0.9, 7);
-  OfficeExplorer unwatched(quick_params());
+  ExplorerParams often = quick_params();
+  often.strategy = Strategy::online;
+  OfficeExplorer unwatched(often);
   const Kept kept = run(unwatched, alone, 12.0, nullptr);
 
   Simulator simulator = test::office_simulator(0.9, 7);
-  OfficeExplorer explorer(quick_params());
+  OfficeExplorer explorer(often);
   RecordingSetup setup = with_distance();
   setup.plan = simulator.world().plan();
   setup.T_map_plan = simulator.T_start_world();
@@ -120,7 +122,7 @@ TEST_CASE("a recorded run is the run that is not, to the bit, and what is record
   }
   REQUIRE(same_cells(explorer.map(), unwatched.map()));
   REQUIRE(again.decisions.size() == kept.decisions.size());
-  REQUIRE(kept.decisions.size() > 2);
+  REQUIRE(kept.decisions.size() > 3);
 
   const Recording recording = read_recording(recorder.file());
   CHECK(recorder.size_bytes() == io_test::content_of(folder / "run").size());
@@ -157,9 +159,9 @@ TEST_CASE("a recorded run is the run that is not, to the bit, and what is record
     const RecordedDecision& recorded = recording.decisions[i];
     REQUIRE(recorded.time_s == decision.time_s);
     REQUIRE(recorded.reason == to_string(decision.reason));
-    REQUIRE(recorded.stop_reason.empty());
+    REQUIRE(recorded.stop_reason == (decision.stopped ? to_string(*decision.stopped) : ""));
     REQUIRE(recorded.candidates.size() == decision.candidates.size());
-    REQUIRE_FALSE(recorded.frontier.empty());
+    REQUIRE((decision.candidates.empty() || !recorded.frontier.empty()));
     for (std::size_t j = 0; j < decision.candidates.size(); ++j) {
       const Candidate& candidate = decision.candidates[j];
       REQUIRE(recorded.candidates[j].gain_nats == static_cast<float>(candidate.gain_nats));
@@ -175,7 +177,7 @@ TEST_CASE("frames show the map cell by cell, with any cells and thresholds, and 
   const io_test::TemporaryFolder folder;
   const double resolution_m = GENERATE(0.1, 0.25);
   ExplorerParams params = quick_params();
-  params.duration_max_s = 8.3;
+  params.duration_max_s = 3.25;
   if (resolution_m > 0.2) params.thresholds = OccupancyThresholds::of_probabilities(0.2, 0.65);
   MapParams cells;
   cells.resolution_m = resolution_m;
