@@ -1,5 +1,5 @@
-/// Everything that needs Eigen alone: all rooms but io/ (libraries of its own), loops/ (costs time to
-/// compile) and testing/ (for tests).
+/// All that a robot needs of what needs Eigen alone: all rooms but io/ (libraries of its own), loops/ (costs time to compile), simulation/
+/// (a robot has a world of its own) and testing/ (for tests).
 #pragma once
 
 #include "incognita/core.hpp"
@@ -13,5 +13,4 @@
 #include "incognita/metrics.hpp"
 #include "incognita/planning.hpp"
 #include "incognita/sensor.hpp"
-#include "incognita/simulation.hpp"
 #include "incognita/version.hpp"

@@ -387,11 +387,11 @@ TEST_CASE("a mission asks for no more memory than its bytes can fill", "[io]") {
   for (const std::uint32_t corner : {0U, 0U, 2147483647U, 1U}) detail::append_number(bytes, corner);
   Grid<double, 2> grid(Lattice<2>(0.1));
   StateReader reader(bytes, "", "a.mission");
-  CHECK(refusal([&] { grid.archive_box(reader); return 0; }) == "a.mission: is not valid: a grid reaches too far");
+  CHECK(refusal([&] { archive_box(reader, grid); return 0; }) == "a.mission: is not valid: a grid reaches too far");
   bytes.clear();
   for (const std::uint32_t corner : {0U, 0U, 1U << 20U, 1U << 10U}) detail::append_number(bytes, corner);
   StateReader large(bytes, "", "a.mission");
-  CHECK(refusal([&] { grid.archive_box(large); return 0; }) == "a.mission: is not valid: more is said to be in it than can be");
+  CHECK(refusal([&] { archive_box(large, grid); return 0; }) == "a.mission: is not valid: more is said to be in it than can be");
   CHECK(grid.size() == 0);
   // A length of 2^60 numbers.
   bytes.clear();

@@ -184,7 +184,7 @@ class SurfaceMap {
   template <class Archive>
   void archive_state(Archive& archive, std::size_t pieces = 1) {
     archive.check("surfaces", params_);
-    slots_.archive_box(archive);
+    archive_box(archive, slots_);
     std::vector<Index<Dim>> places(cells_.size());
     for (Offset at = 0; at < static_cast<Offset>(slots_.size()); ++at) {
       if (slots_[at] >= 0) places[static_cast<std::size_t>(slots_[at])] = slots_.index_at(at);

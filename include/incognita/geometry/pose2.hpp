@@ -1,7 +1,6 @@
 /// Poses in the plane, SE(2).
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -70,6 +69,8 @@ struct Pose2 {
 };
 
 /// "(x, y, yaw)" in metres and radians, for messages.
-[[nodiscard]] inline std::string tuple_text(const Pose2& pose) { return tuple_text(std::array{pose.x_m, pose.y_m, pose.yaw_rad}); }
+[[nodiscard]] inline std::string tuple_text(const Pose2& pose) {
+  return detail::element_text(true, pose.x_m) + detail::element_text(false, pose.y_m) + detail::element_text(false, pose.yaw_rad) + ')';
+}
 
 }  // namespace incognita

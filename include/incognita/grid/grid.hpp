@@ -18,8 +18,76 @@
 
 namespace incognita {
 
+namespace detail {
+
+inline constexpr std::int64_t cell_count_max = std::numeric_limits<int>::max();
+
+/// The cells of a box, or cell_count_max + 1 when there are more.
+template <class Cells>
+[[nodiscard]] std::int64_t cell_count(const Cells& box) {
+  if (box.empty()) return 0;
+  std::int64_t count = 1;
+  for (int axis = 0; axis < box.lower.size(); ++axis) {
+    const std::int64_t extent = std::int64_t{box.upper[axis]} - std::int64_t{box.lower[axis]};
+    if (extent > cell_count_max / count) return cell_count_max + 1;
+    count *= extent;
+  }
+  return count;
+}
+
+template <class Cells>
+[[nodiscard]] std::int64_t checked_cell_count(const Cells& box) {
+  const std::int64_t count = cell_count(box);
+  if (count > cell_count_max) {
+    throw std::length_error("Grid: the box is " + box_text(box) + ", but must have at most " + std::to_string(cell_count_max) + " cells");
+  }
+  return count;
+}
+
+/// `grown`, which holds `box`, with each side that moves moved by at least one of `parts` of the box's extent, as far as indices go.
+template <class Cells>
+[[nodiscard]] Cells with_margins(const Cells& box, Cells grown, int parts) {
+  using Limits = std::numeric_limits<int>;
+  for (int axis = 0; axis < box.lower.size() && !box.empty(); ++axis) {
+    const std::int64_t lower = box.lower[axis];
+    const std::int64_t upper = box.upper[axis];
+    const std::int64_t margin = (upper - lower) / parts;
+    if (grown.lower[axis] < lower) {
+      const std::int64_t moved = std::max<std::int64_t>(lower - margin, Limits::min());
+      grown.lower[axis] = std::min(grown.lower[axis], static_cast<int>(moved));
+    }
+    if (grown.upper[axis] > upper) {
+      const std::int64_t moved = std::min<std::int64_t>(upper + margin, Limits::max());
+      grown.upper[axis] = std::max(grown.upper[axis], static_cast<int>(moved));
+    }
+  }
+  return grown;
+}
+
+}  // namespace detail
+
 /// The place of a cell in a grid's storage. Valid until the grid grows.
 using Offset = std::ptrdiff_t;
+
+template <class Value, int Dim>
+class Grid;
+
+/// For archives of states, see docs/mission_file.md: a grid whose values can be found again. When loading, each is the fill value. Throws
+/// what the archive throws.
+template <class Archive, class Value, int Dim>
+void archive_box(Archive& archive, Grid<Value, Dim>& grid) {
+  constexpr int reach = 1 << 30;  // so far from index 0 nobody's arithmetic overflows
+  IndexBox<Dim> box = grid.box();
+  archive(box);
+  if constexpr (Archive::is_loading) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const bool is_within = box.lower[axis] >= -reach && box.upper[axis] <= reach && box.lower[axis] <= box.upper[axis];
+      archive.require(is_within, "a grid reaches too far");
+    }
+    archive.claim(detail::cell_count(box), sizeof(Value));
+    grid.clear_to(box);
+  }
+}
 
 /// Values on a box of lattice cells, x fastest. A cell keeps its index for ever: growing moves the storage, not the
 /// world. Offsets are for hot loops; they change when the grid grows. Safe to read from many threads at once.
@@ -30,7 +98,7 @@ class Grid {
  public:
   static constexpr int dimension = Dim;  ///< of the lattice
   /// No grid holds more cells than this: a wild coordinate must not ask for all of the memory.
-  static constexpr std::int64_t cell_count_max = std::numeric_limits<int>::max();
+  static constexpr std::int64_t cell_count_max = detail::cell_count_max;
 
   /// Cells of `box`, each `fill`. Throws std::length_error above cell_count_max.
   explicit Grid(const Lattice<Dim>& lattice, const IndexBox<Dim>& box = {}, Value fill = Value{})
@@ -88,7 +156,7 @@ class Grid {
   /// Makes the grid one of `box`, each cell the fill value, in the storage that it has if that is enough. Throws
   /// std::length_error above cell_count_max.
   void clear_to(const IndexBox<Dim>& box) {
-    const auto count = static_cast<std::size_t>(checked_count(box));
+    const auto count = static_cast<std::size_t>(detail::checked_cell_count(box));
     values_.reserve(count);  // may throw, the grid is then as it was
     resize(box);
     values_.assign(count, fill_);
@@ -100,7 +168,7 @@ class Grid {
   bool grow_to_include(const IndexBox<Dim>& needed, int parts = 2) {
     if (box_.contains(needed)) return false;
     IndexBox<Dim> grown = enclosing_box(box_, needed);
-    if (const IndexBox<Dim> roomy = with_margins(grown, parts); cell_count(roomy) <= cell_count_max) grown = roomy;
+    if (const IndexBox<Dim> roomy = detail::with_margins(box_, grown, parts); detail::cell_count(roomy) <= cell_count_max) grown = roomy;
     move_to(grown);
     return true;
   }
@@ -108,73 +176,11 @@ class Grid {
   /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
-    archive_box(archive);
+    archive_box(archive, *this);
     archive.each(values_);
   }
 
-  /// The same of a grid whose values can be found again: when loading, each is the fill value. Throws likewise.
-  template <class Archive>
-  void archive_box(Archive& archive) {
-    IndexBox<Dim> box = box_;
-    archive(box);
-    if constexpr (Archive::is_loading) {
-      archive.require(is_within(box, archive_reach), "a grid reaches too far");
-      archive.claim(cell_count(box), sizeof(Value));
-      clear_to(box);
-    }
-  }
-
  private:
-  /// So far from index 0 nobody's arithmetic overflows.
-  static constexpr int archive_reach = 1 << 30;
-
-  [[nodiscard]] static bool is_within(const IndexBox<Dim>& box, int reach) {
-    for (int axis = 0; axis < Dim; ++axis) {
-      if (box.lower[axis] < -reach || box.upper[axis] > reach || box.lower[axis] > box.upper[axis]) return false;
-    }
-    return true;
-  }
-
-  /// The cells of a box, or cell_count_max + 1 when there are more.
-  [[nodiscard]] static std::int64_t cell_count(const IndexBox<Dim>& box) {
-    if (box.empty()) return 0;
-    std::int64_t count = 1;
-    for (int axis = 0; axis < Dim; ++axis) {
-      const std::int64_t extent = std::int64_t{box.upper[axis]} - std::int64_t{box.lower[axis]};
-      if (extent > cell_count_max / count) return cell_count_max + 1;
-      count *= extent;
-    }
-    return count;
-  }
-
-  [[nodiscard]] static std::int64_t checked_count(const IndexBox<Dim>& box) {
-    const std::int64_t count = cell_count(box);
-    if (count > cell_count_max) {
-      throw std::length_error("Grid: the box is " + box_text(box) + ", but must have at most " + std::to_string(cell_count_max) + " cells");
-    }
-    return count;
-  }
-
-  /// `grown`, which holds the grid's box, with each side that moves moved by at least one of `parts` of the grid's
-  /// extent, as far as indices go.
-  [[nodiscard]] IndexBox<Dim> with_margins(IndexBox<Dim> grown, int parts) const {
-    using Limits = std::numeric_limits<int>;
-    for (int axis = 0; axis < Dim && !box_.empty(); ++axis) {
-      const std::int64_t lower = box_.lower[axis];
-      const std::int64_t upper = box_.upper[axis];
-      const std::int64_t margin = (upper - lower) / parts;
-      if (grown.lower[axis] < lower) {
-        const std::int64_t moved = std::max<std::int64_t>(lower - margin, Limits::min());
-        grown.lower[axis] = std::min(grown.lower[axis], static_cast<int>(moved));
-      }
-      if (grown.upper[axis] > upper) {
-        const std::int64_t moved = std::min<std::int64_t>(upper + margin, Limits::max());
-        grown.upper[axis] = std::max(grown.upper[axis], static_cast<int>(moved));
-      }
-    }
-    return grown;
-  }
-
   /// The same cells in a box that holds the present one.
   void move_to(const IndexBox<Dim>& box) {
     Grid larger(lattice_, box, fill_);
@@ -183,7 +189,7 @@ class Grid {
   }
 
   void resize(const IndexBox<Dim>& box) {
-    static_cast<void>(checked_count(box));
+    static_cast<void>(detail::checked_cell_count(box));
     box_ = box.empty() ? IndexBox<Dim>{} : box;
     Offset stride = 1;
     for (int axis = 0; axis < Dim; ++axis) {

@@ -64,7 +64,7 @@ class OccupancyLayer {
   /// For archives of states, see docs/mission_file.md: of a layer that follows `map`, which is there already.
   template <class Archive, CellPolicy Cell>
   void archive_state(Archive& archive, const Map<Cell, Dim>& map) {
-    grid_.archive_box(archive);
+    archive_box(archive, grid_);
     if constexpr (Archive::is_loading) {
       const OccupancyGrid<Dim> loaded = grid_;
       *this = OccupancyLayer(grid_.lattice(), thresholds_);

@@ -41,7 +41,7 @@ class ClosedCells {
   /// For archives of states, see docs/mission_file.md: of cells closed by the same area.
   template <class Archive>
   void archive_state(Archive& archive) {
-    clearance_m_.archive_box(archive);
+    archive_box(archive, clearance_m_);
     if constexpr (Archive::is_loading) {
       bits_ = CellBits(clearance_m_.lattice(), false);
       find_new();
