@@ -43,8 +43,11 @@ void spoil(std::string& bytes, Random& random) {
       break;
     }
     case 4: bytes.insert(place, odd_number(random)); break;
+    case 5:
+      if (!bytes.empty()) bytes[place] = static_cast<char>(bytes[place] ^ (1 << random.index(8)));
+      break;
     default:
-      if (!bytes.empty()) bytes[place] = static_cast<char>(random.index(2) == 0 ? bytes[place] ^ (1 << random.index(8)) : static_cast<int>(random.index(256)));
+      if (!bytes.empty()) bytes[place] = static_cast<char>(random.index(256));
   }
 }
 

@@ -218,7 +218,6 @@ TEST_CASE("a map that is drawn again is recorded again", "[recording]") {
   Random random(1);
   std::optional<RunRecorder> recorder;
   int redraws = 0;
-  int checked = 0;
   for (std::size_t i = 1; i < way.size(); ++i) {
     explorer.move(way[i - 1].inverse() * way[i] * Pose2{0.0, 0.0, random.normal(0.0, 0.002)}, 0.1);
     const Scan<2> scan = room::scan_of(walls, way[i], circular_beams(90, 5.0));
@@ -227,10 +226,10 @@ TEST_CASE("a map that is drawn again is recorded again", "[recording]") {
     recorder->observed(explorer, scan, way[i]);
     if (!explorer.last_scan().is_redrawn) continue;
     recorder->record(explorer, scan, way[i]);
-    ++redraws;
+    if (++redraws > 3) continue;
     const Recording recording = read_recording(folder / "run");
     CHECK(recording.frames.back().is_redrawn);
-    if (++checked <= 3) CHECK(wrong_cells(recording, explorer) == 0);
+    CHECK(wrong_cells(recording, explorer) == 0);
   }
   REQUIRE(redraws > 0);
   int marked = 0;

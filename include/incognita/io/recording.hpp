@@ -91,7 +91,9 @@ struct RecordedFrame {
     require(std::isfinite(time_s), where, "time_s", time_s, "finite");
     if (!pose.is_finite() || (truth && !truth->is_finite())) throw std::invalid_argument("RecordedFrame: a pose is not finite");
     for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column <= row; ++column) require(std::isfinite(covariance(row, column)), where, "covariance", covariance(row, column), "finite");
+      for (int column = 0; column <= row; ++column) {
+        require(std::isfinite(covariance(row, column)), where, "covariance", covariance(row, column), "finite");
+      }
     }
     require(ranges.empty() || ranges.size() == beams, where, "number of ranges", static_cast<double>(ranges.size()), "0 or that of the beams");
     require(metrics.size() == names, where, "number of metrics", static_cast<double>(metrics.size()), "that of their names");
