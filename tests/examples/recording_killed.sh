@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# kth_explorer is killed at ten moments; each time what it had recorded must be readable, and an earlier recording be there still.
+# kth_explorer is killed at ten moments after its first frame; each time what it had recorded must be readable, and an earlier recording be there still.
 # Usage: recording_killed.sh PATH_OF_KTH_EXPLORER PATH_OF_RECORDING_SUMMARY
 set -u
 program=$(realpath "$1")
@@ -15,7 +15,7 @@ for attempt in 1 2 3 4 5 6 7 8 9 10; do
   "$program" --quiet --record --output run --threads 1 --seed "$attempt" --resolution 0.05 --duration 100000 &
   pid=$!
   for ((tries = 0; tries < 3000; ++tries)); do
-    "$summary" "$partial" >/dev/null 2>&1 && break
+    [ "$("$summary" "$partial" 2>/dev/null | cut -d ' ' -f 1)" -ge 1 ] 2>/dev/null && break
     sleep 0.01
   done
   sleep "0.$(printf '%03d' $((RANDOM % 700)))"
@@ -32,7 +32,7 @@ for attempt in 1 2 3 4 5 6 7 8 9 10; do
     fail "run $attempt had $frames_before frames and $decisions_before decisions, and has $frames and $decisions"
   [ "$kind" = cut ] || fail "run $attempt has an end"
   # A frame each half second, from 0 on.
-  awk -v frames="$frames" -v last_s="$last_s" 'BEGIN { exit !(frames == 2 * last_s + 1 || frames == 0) }' ||
+  awk -v frames="$frames" -v last_s="$last_s" 'BEGIN { exit frames != 2 * last_s + 1 }' ||
     fail "run $attempt has $frames frames up to $last_s s"
   [ "$(cat run/recording.incognita)" = "an earlier one" ] || fail "run $attempt has replaced an earlier recording"
   echo "run $attempt: $frames frames, $decisions decisions, $torn bytes torn"
