@@ -113,7 +113,7 @@ class Grid {
     archive(box);
     if constexpr (Archive::is_loading) {
       archive.require(is_within(box, archive_reach), "a grid reaches too far");
-      archive.claim(cell_count(box), sizeof(Value));
+      archive.claim(static_cast<std::uint64_t>(cell_count(box)), sizeof(Value));
       clear_to(box);
     }
   }
