@@ -84,7 +84,7 @@ void archive_box(Archive& archive, Grid<Value, Dim>& grid) {
       const bool is_within = box.lower[axis] >= -reach && box.upper[axis] <= reach && box.lower[axis] <= box.upper[axis];
       archive.require(is_within, "a grid reaches too far");
     }
-    archive.claim(detail::cell_count(box), sizeof(Value));
+    archive.claim(static_cast<std::uint64_t>(detail::cell_count(box)), sizeof(Value));
     grid.clear_to(box);
   }
 }
