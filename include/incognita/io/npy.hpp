@@ -208,7 +208,8 @@ template <NpyNumber Number>
   }
   std::string shape = "(";
   for (std::size_t i = 0; i < array.shape.size(); ++i) {
-    shape += (i == 0 ? "" : " ") + std::to_string(array.shape[i]);
+    if (i > 0) shape += ' ';
+    shape += std::to_string(array.shape[i]);
     if (i + 1 < array.shape.size() || i == 0) shape += ',';
   }
   shape += ')';
