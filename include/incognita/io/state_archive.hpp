@@ -102,7 +102,7 @@ class ParameterLines {
 
     template <class... Values>
     void operator()(const Values&... values) {
-      ((text += (text.empty() ? "" : " ") + text_of(values)), ...);
+      ((text.append(text.empty() ? "" : " ") += text_of(values)), ...);
     }
   };
 
@@ -138,7 +138,7 @@ class ParameterLines {
       return numbers.text;
     } else if constexpr (detail::is_vector<T>) {
       std::string text = "[";
-      for (const auto& element : value) text += (text.size() > 1 ? "; " : "") + text_of(element);
+      for (const auto& element : value) text.append(text.size() > 1 ? "; " : "") += text_of(element);
       return text + ']';
     } else {
       Numbers numbers;
