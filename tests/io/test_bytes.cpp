@@ -79,6 +79,18 @@ TEST_CASE("numbers of any bits come back") {
   check_round_trip<double>(random);
 }
 
+TEST_CASE("many numbers are one after the other") {
+  ByteWriter bytes;
+  bytes.numbers(std::vector<std::uint16_t>{0x0102, 0x0304, 0xFFFE});
+  bytes.numbers(std::vector<double>{});
+  CHECK(bytes.bytes() == "\x02\x01\x04\x03\xFE\xFF");
+  ByteReader reader(bytes.bytes(), "file");
+  CHECK(reader.numbers<std::uint16_t>(2) == std::vector<std::uint16_t>{0x0102, 0x0304});
+  CHECK(reader.numbers<double>(0).empty());
+  CHECK_THAT(refusal([&] { return reader.numbers<std::int8_t>(3); }), Contains("at byte 4: only 2 bytes where there must be 3"));
+  CHECK(reader.left() == 2);
+}
+
 TEST_CASE("a number is written over one that is there") {
   ByteWriter bytes;
   bytes.text("abc");

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "incognita/io/input_error.hpp"
 
@@ -52,6 +53,16 @@ class ByteWriter {
   void number(Number value) {
     const auto raw = detail::to_little_endian(value);
     bytes_.append(raw.data(), raw.size());
+  }
+
+  /// One after the other.
+  template <ByteNumber Number>
+  void numbers(const std::vector<Number>& values) {
+    if constexpr (std::endian::native == std::endian::little) {
+      bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number));
+    } else {
+      for (const Number value : values) number(value);
+    }
   }
 
   /// Writes over a number that was written before, `place` bytes from the beginning.
@@ -117,6 +128,15 @@ class ByteReader {
   template <ByteNumber Number>
   [[nodiscard]] Number number() {
     return detail::from_little_endian<Number>(raw(sizeof(Number)));
+  }
+
+  /// So many of them, one after the other.
+  template <ByteNumber Number>
+  [[nodiscard]] std::vector<Number> numbers(std::size_t how_many) {
+    ByteReader from = part(how_many * sizeof(Number));
+    std::vector<Number> values(how_many);
+    for (Number& value : values) value = from.number<Number>();
+    return values;
   }
 
   /// `what` is named in the error.

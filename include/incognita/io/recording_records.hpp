@@ -71,7 +71,7 @@ inline void put_setup(ByteWriter& bytes, const RecordingSetup& setup) {
     bytes.number(value);
   }
   bytes.varint(setup.beam_angles_rad.size());
-  for (const float angle_rad : setup.beam_angles_rad) bytes.number(angle_rad);
+  bytes.numbers(setup.beam_angles_rad);
   bytes.varint(setup.metric_names.size());
   for (const std::string& name : setup.metric_names) bytes.text(name);
   bytes.number(static_cast<std::uint8_t>(setup.plan ? 1 : 0));
@@ -88,8 +88,7 @@ inline void put_setup(ByteWriter& bytes, const RecordingSetup& setup) {
                         &setup.range_max_m}) {
     *value = bytes.number<double>();
   }
-  setup.beam_angles_rad.resize(bytes.count(4));
-  for (float& angle_rad : setup.beam_angles_rad) angle_rad = bytes.number<float>();
+  setup.beam_angles_rad = bytes.numbers<float>(bytes.count(4));
   setup.metric_names.resize(bytes.count(1));
   for (std::string& name : setup.metric_names) name = bytes.text();
   if (!bytes.flag()) return setup;
@@ -109,16 +108,16 @@ inline void put_frame(ByteWriter& bytes, const RecordedFrame& frame) {
   bytes.number(static_cast<std::uint8_t>(flags));
   if (frame.truth) detail::put_pose(bytes, *frame.truth);
   bytes.varint(frame.ranges.size());
-  for (const std::uint16_t range : frame.ranges) bytes.number(range);
+  bytes.numbers(frame.ranges);
   bytes.varint(frame.metrics.size());
-  for (const double metric : frame.metrics) bytes.number(metric);
+  bytes.numbers(frame.metrics);
   bytes.varint(frame.tiles.size());
   Index<2> last = zero<Index<2>>();
   for (const RecordedTile& tile : frame.tiles) {
     detail::put_index(bytes, last, tile.tile);
     bytes.number(tile.cells);
   }
-  for (const std::int8_t level : frame.levels) bytes.number(level);
+  bytes.numbers(frame.levels);
 }
 
 /// See put_setup. Throws InputError.
@@ -135,10 +134,8 @@ inline void put_frame(ByteWriter& bytes, const RecordedFrame& frame) {
   frame.is_lost = (flags & 2U) != 0;
   frame.is_redrawn = (flags & 4U) != 0;
   if ((flags & 8U) != 0) frame.truth = detail::take_pose(bytes);
-  frame.ranges.resize(bytes.count(2));
-  for (std::uint16_t& range : frame.ranges) range = bytes.number<std::uint16_t>();
-  frame.metrics.resize(bytes.count(8));
-  for (double& metric : frame.metrics) metric = bytes.number<double>();
+  frame.ranges = bytes.numbers<std::uint16_t>(bytes.count(2));
+  frame.metrics = bytes.numbers<double>(bytes.count(8));
   frame.tiles.resize(bytes.count(2 + 8 + 1));
   Index<2> last = zero<Index<2>>();
   std::size_t cells = 0;
@@ -146,9 +143,7 @@ inline void put_frame(ByteWriter& bytes, const RecordedFrame& frame) {
     tile = {detail::take_index(bytes, last, RecordedFrame::tile_max), bytes.number<CellBits::Word>(), cells};
     cells += static_cast<std::size_t>(std::popcount(tile.cells));
   }
-  if (cells > bytes.left()) bytes.fail("levels of " + std::to_string(cells) + " cells, though only " + std::to_string(bytes.left()) + " bytes follow");
-  frame.levels.resize(cells);
-  for (std::int8_t& level : frame.levels) level = bytes.number<std::int8_t>();
+  frame.levels = bytes.numbers<std::int8_t>(cells);
   return frame;
 }
 
