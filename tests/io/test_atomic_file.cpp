@@ -1,12 +1,10 @@
-#include <sys/resource.h>
-
 #include <catch2/catch.hpp>
-#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "incognita/io/atomic_file.hpp"
+#include "file_size_limit.hpp"
 #include "support.hpp"
 
 using namespace incognita;
@@ -22,26 +20,6 @@ std::string write_refusal(const std::filesystem::path& path, const std::string& 
     return 0;
   });
 }
-
-/// Limits the size of files for a while, as a full disk does.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
 
 }  // namespace
 
@@ -60,7 +38,7 @@ TEST_CASE("a write that fails half way leaves the old file and nothing else") {
   const auto file = folder.with("file", "old");
   std::string message;
   {
-    const FileSizeLimit limit(1000);
+    const io_test::FileSizeLimit limit(1000);
     message = write_refusal(file, std::string(100000, 'x'));
   }
   CHECK_THAT(message, Contains("cannot be written: File too large"));

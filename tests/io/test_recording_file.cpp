@@ -1,8 +1,5 @@
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +9,7 @@
 #include <vector>
 
 #include "incognita/io/recording_file.hpp"
+#include "file_size_limit.hpp"
 #include "recordings.hpp"
 #include "support.hpp"
 
@@ -44,26 +42,6 @@ RecordedDecision decision_at(double time_s) {
 std::string setup_bytes() { return recording_head() + record(1, payload_of(put_setup, RecordingSetup{})); }
 
 std::string frame_bytes(double time_s) { return record(2, payload_of(put_frame, frame_at(time_s))); }
-
-/// Limits the size of files for a while, as a full disk does.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
 
 }  // namespace
 
@@ -213,7 +191,7 @@ TEST_CASE("a recording that no longer fits on the disk stays readable, whatever 
   writer.write(frame_at(1.0));
   const std::size_t complete = writer.size_bytes();
   {
-    const FileSizeLimit limit(complete + 50);
+    const io_test::FileSizeLimit limit(complete + 50);
     CHECK_THAT(refusal([&] { return writer.write(frame_at(2.0)), 0; }), Contains("run: cannot be written: File too large"));
   }
   CHECK_THAT(refusal([&] { return writer.write(frame_at(3.0)), 0; }), Contains("an earlier record could not be written"));
