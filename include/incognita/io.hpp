@@ -40,6 +40,7 @@
 #include "incognita/io/bytes.hpp"
 #include "incognita/io/carmen_log.hpp"
 #include "incognita/io/carmen_writer.hpp"
+#include "incognita/io/checksum.hpp"
 #include "incognita/io/floor_plan.hpp"
 #include "incognita/io/floor_plan_runs.hpp"
 #include "incognita/io/image.hpp"

@@ -10,9 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include <zlib.h>
-
 #include "incognita/io/atomic_file.hpp"
+#include "incognita/io/checksum.hpp"
 #include "incognita/io/input_error.hpp"
 #include "incognita/io/read_file.hpp"
 #include "incognita/io/state_archive.hpp"
@@ -21,11 +20,6 @@ namespace incognita {
 
 /// A larger file is refused.
 inline constexpr std::size_t mission_file_size_max_bytes = std::size_t{4} << 30U;
-
-/// CRC-32 as zlib, PNG and Ethernet have it.
-[[nodiscard]] inline std::uint32_t checksum(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 namespace detail {
 

@@ -1,8 +1,6 @@
 /// Recordings as files: written record by record, so that a run that is killed leaves all that it had recorded.
 #pragma once
 
-#include <zlib.h>
-
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +17,7 @@
 
 #include "incognita/core/error.hpp"
 #include "incognita/io/bytes.hpp"
+#include "incognita/io/checksum.hpp"
 #include "incognita/io/input_error.hpp"
 #include "incognita/io/read_file.hpp"
 #include "incognita/io/recording.hpp"
@@ -35,11 +34,6 @@ namespace detail {
 /// Of a record, what comes before its payload: its type and the payload's size; and after: the checksum.
 inline constexpr std::size_t record_head_bytes = 8;
 inline constexpr std::size_t record_tail_bytes = 4;
-
-/// CRC-32 of a record's type, size and payload.
-[[nodiscard]] inline std::uint32_t record_checksum(std::string_view record) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(record.data()), record.size()));
-}
 
 }  // namespace detail
 
@@ -102,7 +96,7 @@ class RecordingWriter {
     const std::size_t size = record_.bytes().size() - detail::record_head_bytes;
     if (size > std::numeric_limits<std::uint32_t>::max()) fail("a record of more than 4 GiB");
     record_.number_at(4, static_cast<std::uint32_t>(size));
-    record_.number(detail::record_checksum(record_.bytes()));
+    record_.number(checksum(record_.bytes()));
     hand_over();
   }
 
@@ -145,7 +139,7 @@ struct RecordView {
   if (ahead.left() < std::size_t{size} + record_tail_bytes) return std::nullopt;
   const ByteReader payload = ahead.part(size);
   ByteReader whole = bytes;
-  if (ahead.number<std::uint32_t>() != record_checksum(whole.raw(record_head_bytes + size))) bytes.fail("a record whose checksum is wrong");
+  if (ahead.number<std::uint32_t>() != checksum(whole.raw(record_head_bytes + size))) bytes.fail("a record whose checksum is wrong");
   if (type < 1 || type > 4) bytes.fail("a record of type " + std::to_string(type) + ", which must be 1 to 4");
   bytes = ahead;
   return RecordView{static_cast<RecordType>(type), payload};
