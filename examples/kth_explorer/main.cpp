@@ -186,7 +186,9 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   draw_overview(output.staged("overview.png"), explorer.map(), simulator.world().plan(), area, T_world_start, record);
   output.publish();
   if (!options.save_file.empty()) write_file_atomically(options.save_file, saved);
-  if (!options.quiet) print_table(metrics, output.path());
+  if (options.quiet) return;
+  print_table(metrics, output.path());
+  if (options.reports) std::printf("To look at it, open %s in a browser\n", (output.path() / "report.html").string().c_str());
 }
 
 void run(const Options& options) {

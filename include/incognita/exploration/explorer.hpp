@@ -49,7 +49,7 @@ struct Decision {
   /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
   template <class Archive>
   void archive_state(Archive& archive) {
-    archive(time_s, candidates, stopped);
+    archive(time_s, candidates, stopped, reason);
   }
 };
 
