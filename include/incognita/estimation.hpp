@@ -11,6 +11,7 @@
 #include "incognita/estimation/dead_reckoning.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/estimation/estimator.hpp"
+#include "incognita/estimation/filter_with_map.hpp"
 #include "incognita/estimation/information.hpp"
 #include "incognita/estimation/landmark_slam.hpp"
 #include "incognita/estimation/likelihood_grid.hpp"

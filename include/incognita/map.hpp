@@ -9,6 +9,7 @@
 #include "incognita/map/cell_policy.hpp"
 #include "incognita/map/cell_sum.hpp"
 #include "incognita/map/cells/dispersion.hpp"
+#include "incognita/map/cells/exact_pose.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/map/cells/t_bayes.hpp"
 #include "incognita/map/dispersion_probability.hpp"
