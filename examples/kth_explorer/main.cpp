@@ -29,12 +29,12 @@
 #include "incognita/simulation/start.hpp"
 #include "kth_explorer/allowed_floor.hpp"
 #include "kth_explorer/embedded_floor_plan.hpp"
-#include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
 #include "kth_explorer/parameters.hpp"
 #include "kth_explorer/results.hpp"
 #include "kth_explorer/saved_mission.hpp"
 #include "support/exploration_names.hpp"
+#include "support/mission.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
 #include "support/report_html.hpp"
@@ -83,7 +83,7 @@ incognita::Pose2 start_pose(const Options& options, const incognita::World& floo
 }
 
 /// A bar that is drawn over on a terminal, a line every simulated minute elsewhere.
-void print_progress(const ProgressRecord& progress, double duration_s) {
+void print_progress(const examples::ProgressRecord& progress, double duration_s) {
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const bool last = progress.time_s >= duration_s;
   if (!terminal && std::fmod(progress.time_s, 60.0) > 1e-6 && !last) return;
@@ -148,27 +148,27 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   Explorer<Map<Cell>, Measure, Filter> explorer(params, Map<Cell>(map_params), make_measure(options),
                                                 make_filter<Filter>(options));
 
-  std::function<void(const ProgressRecord&)> report;
-  if (!options.quiet) report = [&](const ProgressRecord& p) { print_progress(p, options.duration_s); };
+  std::function<void(const examples::ProgressRecord&)> report;
+  if (!options.quiet) report = [&](const examples::ProgressRecord& p) { print_progress(p, options.duration_s); };
   const Pose2 T_world_start = simulator.T_start_world().inverse();
-  const MissionParams mission{simulator.T_world_robot().position(), robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
-  MissionRecord before;
+  const examples::MissionParams mission{simulator.T_world_robot().position(), robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
+  examples::MissionRecord before;
   if (!options.resume_file.empty()) before = resumed_mission(options, explorer, simulator);
   std::optional<RunRecorder> recorder;
   if (options.records || options.reports) {
     RecordingSetup setup;
     setup.parameters_json = parameters_json(explorer, options).dump();
-    setup.metric_names.assign(recorded_metrics.begin(), recorded_metrics.end());
+    setup.metric_names.assign(examples::recorded_metrics.begin(), examples::recorded_metrics.end());
     setup.plan = simulator.world().plan();
     setup.T_map_plan = simulator.T_start_world();
     recorder.emplace(output.growing("recording.incognita"), explorer, simulator.scan(), std::move(setup));
   }
   std::string saved;
-  const auto save = [&](const MissionRecord& now) {
+  const auto save = [&](const examples::MissionRecord& now) {
     if (!options.save_file.empty()) saved = saved_mission(options, explorer, simulator, now);
   };
-  const MissionRecord record =
-      run_mission(explorer, simulator, floor, mission, std::move(before), report, recorder ? &*recorder : nullptr, save);
+  const examples::MissionRecord record =
+      examples::run_mission(explorer, simulator, floor, mission, std::move(before), report, recorder ? &*recorder : nullptr, save);
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
   if (recorder) recorder->ended({std::string(to_string(record.stop_reason)), metrics.dump()});

@@ -13,11 +13,11 @@
 #include "incognita/io/atomic_file.hpp"
 #include "incognita/io/tum.hpp"
 #include "incognita/planning/allowed_area.hpp"
-#include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
 #include "kth_explorer/saved_mission.hpp"
 #include "support/belief_output.hpp"
 #include "support/drawing.hpp"
+#include "support/mission.hpp"
 
 namespace kth_explorer {
 
@@ -44,9 +44,9 @@ class CsvText {
   std::string text_;
 };
 
-[[nodiscard]] inline std::string decisions_csv(const MissionRecord& record) {
+[[nodiscard]] inline std::string decisions_csv(const examples::MissionRecord& record) {
   CsvText csv("time_s,candidates,goal_x_m,goal_y_m,big_nats,runner_up_big_nats,evaluation_time_s");
-  for (const DecisionRecord& d : record.decisions) {
+  for (const examples::DecisionRecord& d : record.decisions) {
     csv.row({d.time_s, static_cast<double>(d.candidates), d.goal_m.x(), d.goal_m.y(), d.gain_nats,
              d.runner_up_gain_nats, d.evaluation_time_s});
   }
@@ -54,17 +54,17 @@ class CsvText {
 }
 
 /// The entropy counts the cells that the map touches in the end, so that it only falls.
-[[nodiscard]] inline std::string progress_csv(const MissionRecord& record) {
+[[nodiscard]] inline std::string progress_csv(const examples::MissionRecord& record) {
   CsvText csv("time_s,explored_fraction,map_entropy_bits,position_error_m,three_sigma_m,nees,distance_m");
   const double start_bits = static_cast<double>(record.touched_cells);
-  for (const ProgressRecord& p : record.progress) {
+  for (const examples::ProgressRecord& p : record.progress) {
     csv.row({p.time_s, p.explored_fraction, start_bits - p.entropy_drop_nats / std::numbers::ln2, p.position_error_m,
              p.three_sigma_m, p.nees, p.distance_m});
   }
   return csv.text();
 }
 
-[[nodiscard]] inline nlohmann::ordered_json metrics_json(const MissionRecord& record, const Options& options) {
+[[nodiscard]] inline nlohmann::ordered_json metrics_json(const examples::MissionRecord& record, const Options& options) {
   nlohmann::ordered_json json;
   // Parameters come before duration_s, results from there on: by this order plot tells what runs differ in.
   json["map"] = map_name(options);
@@ -96,7 +96,7 @@ class CsvText {
   json["map_error"] = record.map_error;
   json["map_uncertainty_bits_per_step"] = record.map_uncertainty_bits_per_step;
   json["explored_fraction"] = record.explored_fraction;
-  const ProgressRecord* const most = record.first_with_explored(0.9);
+  const examples::ProgressRecord* const most = record.first_with_explored(0.9);
   json["time_to_90_percent_s"] = most == nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(most->time_s);
   json["distance_to_90_percent_m"] = most == nullptr ? nlohmann::ordered_json() : nlohmann::ordered_json(most->distance_m);
   json["touched_cells"] = record.touched_cells;
@@ -110,7 +110,7 @@ class CsvText {
 /// The belief under the true walls, with both trajectories, in the plan's own frame.
 template <class Map>
 void draw_overview(const std::filesystem::path& file, const Map& map, const incognita::FloorPlan& plan,
-                   const incognita::AllowedArea& area, const incognita::Pose2& T_world_start, const MissionRecord& record) {
+                   const incognita::AllowedArea& area, const incognita::Pose2& T_world_start, const examples::MissionRecord& record) {
   using incognita::FloorCell;
   using examples::Color;
   constexpr Color wall{0.85, 0.25, 0.1, 0.55};

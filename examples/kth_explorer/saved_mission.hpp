@@ -10,8 +10,8 @@
 #include "incognita/io/mission_file.hpp"
 #include "incognita/io/state_archive.hpp"
 #include "incognita/simulation/simulator.hpp"
-#include "kth_explorer/mission.hpp"
 #include "kth_explorer/options.hpp"
+#include "support/mission.hpp"
 #include "support/output_folder.hpp"
 
 namespace kth_explorer {
@@ -45,7 +45,7 @@ struct MissionIdentity {
 struct SimulatedPart {
   MissionIdentity identity;
   incognita::Simulator simulator;
-  MissionRecord record;
+  examples::MissionRecord record;
 
   template <class Archive>
   void archive_state(Archive& archive) {
@@ -57,7 +57,7 @@ struct SimulatedPart {
 /// The content of the file of a mission.
 template <class Explorer>
 [[nodiscard]] std::string saved_mission(const Options& options, const Explorer& explorer, const incognita::Simulator& simulator,
-                                        const MissionRecord& record) {
+                                        const examples::MissionRecord& record) {
   incognita::StateWriter writer;
   writer(SimulatedPart{{options, simulator}, simulator, record});
   incognita::StateWriter application;
@@ -68,7 +68,7 @@ template <class Explorer>
 /// Makes the explorer and the simulator those of options.resume_file, and returns the record. Throws InputError when it cannot be gone on
 /// with.
 template <class Explorer>
-[[nodiscard]] MissionRecord resumed_mission(const Options& options, Explorer& explorer, incognita::Simulator& simulator) {
+[[nodiscard]] examples::MissionRecord resumed_mission(const Options& options, Explorer& explorer, incognita::Simulator& simulator) {
   const std::string application = incognita::load_mission(options.resume_file, explorer);
   std::string parameters;
   std::string bytes;

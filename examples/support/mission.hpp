@@ -26,7 +26,7 @@
 #include "incognita/simulation/simulator.hpp"
 #include "support/drive.hpp"
 
-namespace kth_explorer {
+namespace examples {
 
 using Clock = std::chrono::steady_clock;
 
@@ -120,6 +120,16 @@ struct MissionRecord {
   }
 };
 
+/// The map that the filter reads: its own where it keeps one (FilterWithMap), else the explorer's.
+template <class Explorer>
+[[nodiscard]] const auto& estimated_map(const Explorer& explorer) {
+  if constexpr (requires { explorer.filter().map(); }) {
+    return explorer.filter().map();
+  } else {
+    return explorer.map();
+  }
+}
+
 /// Drives `explorer` in `simulator` until it stops or duration_s is over, and then back if asked to. `floor` is what it is asked to
 /// explore, and `record` that of what has been explored, of a simulator that is not at its start. `report` is called once a simulated second
 /// of the exploration, at_end(record) where it ends, before the way back. `recorder` follows the explorer, the way back included, unless it
@@ -138,8 +148,8 @@ template <class Explorer, class AtEnd>
   const auto is_known = [&](const Index<2>& cell) {
     return explorer.occupancy().grid().value(cell) != Occupancy::unknown;
   };
-  EntropyLayer information(explorer.map().lattice(), EntropyTable(Shannon{}));
-  information.rebuild(explorer.map());
+  EntropyLayer information(estimated_map(explorer).lattice(), EntropyTable(Shannon{}));
+  information.rebuild(estimated_map(explorer));
 
   // Of a pose that is known there is nothing to say.
   const auto is_estimated = [&] { return position_sigma_m(explorer.belief().covariance) > 0.0; };
@@ -158,9 +168,9 @@ template <class Explorer, class AtEnd>
   const auto observe = [&] {
     explorer.observe(simulator.scan());
     if (explorer.last_scan().is_redrawn) {
-      information.rebuild(explorer.map());
+      information.rebuild(estimated_map(explorer));
     } else if (explorer.correction().trusted) {
-      information.follow(explorer.map());
+      information.follow(estimated_map(explorer));
     }
     if (recorder != nullptr) recorder->observed(explorer, simulator.scan(), simulator.T_start_robot(), recorded);
   };
@@ -197,7 +207,7 @@ template <class Explorer, class AtEnd>
     on_scan();
     record.command = explorer.command(simulator.scan());
   }
-  examples::drive_on(explorer, simulator, record.command, params.duration_s, on_scan, [&] {
+  drive_on(explorer, simulator, record.command, params.duration_s, on_scan, [&] {
     const Pose2 truth = simulator.T_start_robot();
     record.trajectory_error.add(explorer.belief().pose, truth);
     if (is_estimated()) record.nees.add(explorer.belief().pose, truth, explorer.belief().covariance);
@@ -217,8 +227,8 @@ template <class Explorer, class AtEnd>
   record.explored_fraction = last.explored_fraction;
   record.floor_area_m2 = coverage.floor_area_m2();
   record.map_uncertainty_bits_per_step = map_uncertainty_bits_per_step(last.entropy_drop_nats, 0.0, simulator.steps());
-  const MapError error = map_error(
-      explorer.map(), truly_occupied_cells(simulator.world().plan(), T_start_world, explorer.map().lattice()));
+  const auto& estimated = estimated_map(explorer);
+  const MapError error = map_error(estimated, truly_occupied_cells(simulator.world().plan(), T_start_world, estimated.lattice()));
   record.map_error = error.value();
   record.touched_cells = error.occupied_count() + error.free_count();
   for (const Frontier<2>& frontier : explorer.frontiers()) {
@@ -234,7 +244,7 @@ template <class Explorer, class AtEnd>
       decide();
       remember_poses();
     };
-    examples::drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {});
+    drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {});
     record.has_returned = explorer.stopped() == StopReason::returned;
     record.return_distance_m = simulator.distance_m() - record.distance_m;
   }
@@ -243,4 +253,4 @@ template <class Explorer, class AtEnd>
   return record;
 }
 
-}  // namespace kth_explorer
+}  // namespace examples
