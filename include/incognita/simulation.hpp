@@ -1,5 +1,6 @@
 /// The door of simulation/: a robot in a floor plan, for examples, tests and experiments.
 ///
+/// - simulation/plan_drawing.hpp: floor plans drawn in metres
 /// - simulation/world.hpp: a floor plan with exact ranges and collisions
 /// - simulation/start.hpp: start poses, drawn or checked
 /// - simulation/unicycle.hpp: the arc that a twist drives
@@ -19,6 +20,7 @@
 #pragma once
 
 #include "incognita/simulation/odometry.hpp"
+#include "incognita/simulation/plan_drawing.hpp"
 #include "incognita/simulation/range_sensor.hpp"
 #include "incognita/simulation/robot.hpp"
 #include "incognita/simulation/simulator.hpp"
