@@ -29,7 +29,7 @@ find include examples -name '*.[ch]pp' | LC_ALL=C sort | perl -CSD -Mutf8 -e '
     $strings .= "$1\n" while $text =~ /$literal/g;
     # A call reaches to the semicolon that ends its statement, but for those in strings.
     my $statement = qr/(?:[^";]|$literal)*/;
-    my $is_io = $file =~ m{/io/|examples/plot/};
+    my $is_io = $file =~ m{/io/|examples/(plot|experiment)/};
     while ($text =~ /\b(throw\b|throw_invalid\(|require\w*\(|fail\()(?=($statement);)/g) {
       my ($word, $call) = ($1, $2);
       my @literals;

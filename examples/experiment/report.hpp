@@ -1,0 +1,126 @@
+/// The report of a study, as Markdown beside its pictures.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiment/analysis.hpp"
+#include "experiment/figures.hpp"
+#include "incognita/io/atomic_file.hpp"
+#include "support/output_folder.hpp"
+
+namespace experiment {
+
+namespace detail {
+
+[[nodiscard]] inline std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+[[nodiscard]] inline std::string interval_text(const examples::MeanInterval& interval) {
+  return digits(interval.mean) + " [" + digits(interval.low) + ", " + digits(interval.high) + ']';
+}
+
+/// The methods' means with their intervals, and the medians.
+[[nodiscard]] inline std::string table_text(const Study& study, const Results& results, std::size_t map, const TrialGroup& group) {
+  std::string text = "| method | missions |";
+  for (const std::string& metric : study.tables) text += ' ' + metric + " |";
+  text += "\n|---|---|";
+  for (std::size_t n = 0; n < study.tables.size(); ++n) text += "---|";
+  text += '\n';
+  for (std::size_t method = 0; method < study.methods.size(); ++method) {
+    text += "| " + study.methods[method].name + " | " + std::to_string(results.of(map, method, &group).size()) + " |";
+    for (const std::string& metric : study.tables) {
+      const std::vector<double> values = results.values(map, method, metric, &group);
+      text += values.empty() ? " |" : ' ' + interval_text(examples::bootstrapped_mean(values)) + ", median " + digits(examples::median(values)) + " |";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+[[nodiscard]] inline std::string claims_text(const Study& study, const Results& results) {
+  std::string text =
+      "A claim holds where the 95 % bootstrap interval of the mean difference, on the same starts and seeds, is on its side of 0.\n\n"
+      "| claim | difference of | on | pairs | mean [95 %] | |\n|---|---|---|---|---|---|\n";
+  for (const Claim& claim : study.claims) {
+    const auto row = [&](const std::string& where, std::optional<std::size_t> map) {
+      const Judgement judgement = judge(claim, study, results, map);
+      text += "| " + claim.says + " | " + claim.metric + ", " + claim.better + " - " + claim.worse + " | " + where + " | " +
+              std::to_string(judgement.pairs) + " | " + (judgement.pairs < 3 ? "" : interval_text(judgement.difference)) + " | **" +
+              words_of(judgement.verdict) + "** |\n";
+    };
+    for (std::size_t map = 0; map < study.maps.size(); ++map) row(study.maps[map].name, map);
+    if (study.maps.size() > 1) row("all maps", std::nullopt);
+  }
+  return text + '\n';
+}
+
+/// Why missions have ended, and what has failed.
+[[nodiscard]] inline std::string endings_text(const Study& study, const Results& results) {
+  std::map<std::string, std::size_t> endings;
+  std::string failures;
+  for (const Results::Done& done : results.all()) {
+    if (done.row->has_failed()) {
+      failures += "- " + study.name_of(done.unit) + ": " + done.row->json.at("failed").get<std::string>() + '\n';
+    } else {
+      ++endings[done.row->json.at("stop_reason").get<std::string>()];
+    }
+  }
+  std::string text = std::to_string(results.all().size()) + " of " + std::to_string(study.units().size()) + " missions are in this report. They ended as";
+  const char* separator = " ";
+  for (const auto& [reason, count] : endings) {
+    text += separator + reason + " (" + std::to_string(count) + ")";
+    separator = ", ";
+  }
+  text += ".\n";
+  return failures.empty() ? text : text + "\nFailed, and in no table:\n\n" + failures;
+}
+
+}  // namespace detail
+
+/// Writes report.md and its pictures into a folder. Throws what drawing and writing throw; files appear when all are complete.
+inline void write_report(const Study& study, const std::vector<Arena>& arenas, const std::vector<Row>& rows, const std::filesystem::path& folder) {
+  const Results results(study, rows);
+  examples::OutputFolder output(folder);
+  std::string text = "# " + study.title + "\n\n" + detail::endings_text(study, results) + "\n| method | what |\n|---|---|\n";
+  for (const StudyMethod& method : study.methods) text += "| " + method.name + " | " + method.what + " |\n";
+  text += '\n';
+  if (!study.claims.empty()) text += "## Claims\n\n" + detail::claims_text(study, results);
+  for (std::size_t map = 0; map < study.maps.size(); ++map) {
+    const std::string& name = study.maps[map].name;
+    text += "## " + name + "\n\n";
+    bool has_rows = false;
+    for (std::size_t method = 0; method < study.methods.size(); ++method) has_rows = has_rows || !results.of(map, method).empty();
+    if (!has_rows) {
+      text += "No mission has been finished here.\n\n";
+      continue;
+    }
+    for (const TrialGroup& group : study.trials) {
+      text += "Trials \"" + group.name + "\", means [95 % bootstrap intervals]:\n\n" + detail::table_text(study, results, map, group) + '\n';
+    }
+    const auto picture = [&](const std::string& kind, const std::string& says, auto&& draw) {
+      const std::string file = name + '_' + kind + ".png";
+      draw(output.staged(file));
+      text += "![" + says + "](" + file + ")\n\n";
+    };
+    if (!study.curves.empty()) {
+      picture("curves", "Medians over time, from quartile to quartile", [&](const auto& file) { draw_curves(file, study, results, map); });
+    }
+    if (!study.tables.empty()) {
+      picture("boxes", "Boxes from quartile to quartile, whiskers to the extremes", [&](const auto& file) { draw_boxes(file, study, results, map); });
+    }
+    picture("ways", "The way of each method's first trial", [&](const auto& file) { draw_ways(file, study, results, arenas[map], map); });
+  }
+  incognita::write_file_atomically(output.staged("report.md"), text);
+  output.publish();
+}
+
+}  // namespace experiment

@@ -1,0 +1,77 @@
+/// Rows of results.jsonl: which unit, and what it came to.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "experiment/study.hpp"
+#include "incognita/io/input_error.hpp"
+
+namespace experiment {
+
+/// Tells units apart by the names in a row.
+using UnitKey = std::tuple<std::string, std::string, int, int>;
+
+[[nodiscard]] inline UnitKey key_of(const Study& study, const Unit& unit) {
+  return {study.maps[unit.map].name, study.methods[unit.method].name, unit.start, unit.seed};
+}
+
+/// A row without its line feed; `result` are members of an object, without braces.
+[[nodiscard]] inline std::string row_text(const Study& study, const Unit& unit, const std::string& result) {
+  nlohmann::ordered_json head;
+  head["map"] = study.maps[unit.map].name;
+  head["method"] = study.methods[unit.method].name;
+  head["start"] = unit.start;
+  head["seed"] = unit.seed;
+  std::string text = head.dump();
+  text.pop_back();
+  return text + ',' + result + '}';
+}
+
+/// What stands in a row instead of results when a mission has failed.
+[[nodiscard]] inline std::string failure_text(const std::string& reason) {
+  const std::string text = nlohmann::ordered_json{{"failed", reason}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return text.substr(1, text.size() - 2);
+}
+
+struct Row {
+  UnitKey key;
+  nlohmann::json json;
+
+  [[nodiscard]] bool has_failed() const { return json.contains("failed"); }
+
+  /// None where it has failed, or has none.
+  [[nodiscard]] std::optional<double> metric(const std::string& name) const {
+    if (has_failed()) return std::nullopt;
+    const auto& value = json.at("metrics").at(name);
+    return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+  }
+};
+
+/// Throws InputError, naming the line, for a line that is no row.
+[[nodiscard]] inline std::vector<Row> parsed_rows(const std::vector<std::string>& lines, const std::string& file) {
+  std::vector<Row> rows;
+  std::set<UnitKey> seen;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    const auto fail = [&](const std::string& problem) { throw incognita::InputError(file + ':' + std::to_string(n + 1), problem); };
+    try {
+      nlohmann::json json = nlohmann::json::parse(lines[n]);
+      UnitKey key{json.at("map").get<std::string>(), json.at("method").get<std::string>(), json.at("start").get<int>(), json.at("seed").get<int>()};
+      if (!json.contains("failed")) static_cast<void>(json.at("metrics").at("explored_fraction").get<double>());
+      if (!seen.insert(key).second) fail("is a row of a unit that has one already");
+      rows.push_back({std::move(key), std::move(json)});
+    } catch (const nlohmann::json::exception& problem) {
+      fail(std::string("is not a row of results: ") + problem.what());
+    }
+  }
+  return rows;
+}
+
+}  // namespace experiment
