@@ -8,10 +8,10 @@ build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libpugixml-dev li
 example_packages=(libcli11-dev libcairo2-dev fonts-dejavu-core gnuplot-nox libjs-chart.js libtomlplusplus-dev)
 mpi_packages=(libopenmpi-dev openmpi-bin)
 docs_packages=(doxygen libjs-mathjax)
-test_packages=(catch2 libbenchmark-dev liboctomap-dev make python3 "${mpi_packages[@]}" "${docs_packages[@]}")
+test_packages=(catch2 liboctomap-dev make python3 "${mpi_packages[@]}" "${docs_packages[@]}")
 benchmark_packages=(libbenchmark-dev libcli11-dev gnuplot-nox python3)
 peer_packages=(liboctomap-dev libmrpt-maps-dev)
-all_test_packages=(clang libomp-dev llvm libclang-rt-14-dev)
+all_test_packages=(libbenchmark-dev clang libomp-dev llvm libclang-rt-14-dev)
 
 mkdir -p "$root/build"
 log="$root/build/setup.log"
