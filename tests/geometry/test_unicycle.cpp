@@ -3,11 +3,11 @@
 #include <numbers>
 
 #include "incognita/core/random.hpp"
-#include "incognita/simulation/unicycle.hpp"
+#include "incognita/geometry/unicycle.hpp"
 
 using namespace incognita;
 
-TEST_CASE("A unicycle's arc against many small straight steps", "[simulation]") {
+TEST_CASE("A unicycle's arc against many small straight steps", "[geometry]") {
   Random random(1);
   for (int trial = 0; trial < 20; ++trial) {
     const Twist2 twist{random.uniform(-2.0, 2.0), random.uniform(-3.0, 3.0)};
@@ -28,7 +28,7 @@ TEST_CASE("A unicycle's arc against many small straight steps", "[simulation]") 
   }
 }
 
-TEST_CASE("Arcs that can be told without a sum", "[simulation]") {
+TEST_CASE("Arcs that can be told without a sum", "[geometry]") {
   const Pose2 quarter = unicycle_motion({2.0, 1.0}, std::numbers::pi / 2.0);  // on a circle of 2 m
   CHECK(quarter.x_m == Approx(2.0));
   CHECK(quarter.y_m == Approx(2.0));
@@ -44,7 +44,7 @@ TEST_CASE("Arcs that can be told without a sum", "[simulation]") {
   CHECK(on_the_spot.yaw_rad == Approx(4.0 - 2.0 * std::numbers::pi));
 }
 
-TEST_CASE("Halves of an arc make the whole", "[simulation]") {
+TEST_CASE("Halves of an arc make the whole", "[geometry]") {
   const Twist2 twist{0.8, -0.7};
   const Pose2 half = unicycle_motion(twist, 0.65);
   const Pose2 whole = unicycle_motion(twist, 1.3);
