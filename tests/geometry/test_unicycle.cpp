@@ -53,3 +53,21 @@ TEST_CASE("Halves of an arc make the whole", "[geometry]") {
   CHECK(both.y_m == Approx(whole.y_m));
   CHECK(both.yaw_rad == Approx(whole.yaw_rad));
 }
+
+TEST_CASE("A state with a unit vector for its heading drives the same arcs", "[geometry]") {
+  Random random(2);
+  for (int trial = 0; trial < 20; ++trial) {
+    Pose2 pose{random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-3.0, 3.0)};
+    UnicycleState state(pose);
+    for (int step = 0; step < 100; ++step) {
+      const Twist2 twist{random.uniform(-2.0, 2.0), step % 7 == 0 ? 0.0 : random.uniform(-3.0, 3.0)};
+      const double duration_s = random.uniform(0.01, 1.0);
+      pose = pose * unicycle_motion(twist, duration_s);
+      state.drive(twist, duration_s);
+    }
+    CHECK(state.x_m == Approx(pose.x_m).margin(1e-12));
+    CHECK(state.y_m == Approx(pose.y_m).margin(1e-12));
+    CHECK(state.cosine == Approx(std::cos(pose.yaw_rad)).margin(1e-12));
+    CHECK(state.sine == Approx(std::sin(pose.yaw_rad)).margin(1e-12));
+  }
+}
