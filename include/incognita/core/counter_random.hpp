@@ -11,7 +11,7 @@ namespace incognita {
 /// Two draws that are independent of each other, without a unit.
 struct NormalPair {
   double first;   ///< standard normal, without a unit
-  double second;  ///< likewise
+  double second;  ///< likewise, without a unit
 };
 
 /// Random draws by their number: the same seed and number give the same draw, whoever asks for it and when. The words are those of
