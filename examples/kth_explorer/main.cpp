@@ -34,6 +34,7 @@
 #include "kth_explorer/parameters.hpp"
 #include "kth_explorer/results.hpp"
 #include "kth_explorer/saved_mission.hpp"
+#include "kth_explorer/steering.hpp"
 #include "support/exploration_names.hpp"
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
@@ -152,12 +153,13 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   if (!options.quiet) report = [&](const ProgressRecord& p) { print_progress(p, options.duration_s); };
   const Pose2 T_world_start = simulator.T_start_world().inverse();
   const MissionParams mission{simulator.T_world_robot().position(), robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
+  Steering steering(options, explorer.map().lattice());
   MissionRecord before;
-  if (!options.resume_file.empty()) before = resumed_mission(options, explorer, simulator);
+  if (!options.resume_file.empty()) before = resumed_mission(options, explorer, simulator, steering);
   std::optional<RunRecorder> recorder;
   if (options.records || options.reports) {
     RecordingSetup setup;
-    setup.parameters_json = parameters_json(explorer, options).dump();
+    setup.parameters_json = parameters_json(explorer, steering, options).dump();
     setup.metric_names.assign(recorded_metrics.begin(), recorded_metrics.end());
     setup.plan = simulator.world().plan();
     setup.T_map_plan = simulator.T_start_world();
@@ -165,10 +167,10 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   }
   std::string saved;
   const auto save = [&](const MissionRecord& now) {
-    if (!options.save_file.empty()) saved = saved_mission(options, explorer, simulator, now);
+    if (!options.save_file.empty()) saved = saved_mission(options, explorer, simulator, now, steering);
   };
   const MissionRecord record =
-      run_mission(explorer, simulator, floor, mission, std::move(before), report, recorder ? &*recorder : nullptr, save);
+      run_mission(explorer, simulator, floor, mission, std::move(before), report, recorder ? &*recorder : nullptr, steering, save);
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
   if (recorder) recorder->ended({std::string(to_string(record.stop_reason)), metrics.dump()});

@@ -24,6 +24,7 @@
 #include "incognita/metrics/truth.hpp"
 #include "incognita/metrics/visible_floor.hpp"
 #include "incognita/simulation/simulator.hpp"
+#include "kth_explorer/steering.hpp"
 #include "support/drive.hpp"
 
 namespace kth_explorer {
@@ -121,14 +122,14 @@ struct MissionRecord {
 };
 
 /// Drives `explorer` in `simulator` until it stops or duration_s is over, and then back if asked to. `floor` is what it is asked to
-/// explore, and `record` that of what has been explored, of a simulator that is not at its start. `report` is called once a simulated second
+/// explore, `steering` says what the robot is told, and `record` is that of what has been explored, of a simulator that is not at its start. `report` is called once a simulated second
 /// of the exploration, at_end(record) where it ends, before the way back. `recorder` follows the explorer, the way back included, unless it
 /// is null.
 template <class Explorer, class AtEnd>
 [[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, const incognita::World& floor,
                                         const MissionParams& params, MissionRecord record,
                                         const std::function<void(const ProgressRecord&)>& report, incognita::RunRecorder* recorder,
-                                        AtEnd&& at_end) {
+                                        Steering& steering, AtEnd&& at_end) {
   using namespace incognita;
   const Clock::time_point begin = Clock::now();
   const Pose2& T_start_world = simulator.T_start_world();
@@ -195,7 +196,7 @@ template <class Explorer, class AtEnd>
   };
   if (simulator.steps() == 0) {
     on_scan();
-    record.command = explorer.command(simulator.scan());
+    record.command = steering(explorer, simulator.scan());
   }
   examples::drive_on(explorer, simulator, record.command, params.duration_s, on_scan, [&] {
     const Pose2 truth = simulator.T_start_robot();
@@ -205,7 +206,7 @@ template <class Explorer, class AtEnd>
       record.progress.push_back(progress());
       if (report) report(record.progress.back());
     }
-  });
+  }, steering);
   record.wall_time_s += seconds_since(begin);
   at_end(record);
   const ProgressRecord last = progress();
@@ -234,7 +235,7 @@ template <class Explorer, class AtEnd>
       decide();
       remember_poses();
     };
-    examples::drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {});
+    examples::drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {}, steering);
     record.has_returned = explorer.stopped() == StopReason::returned;
     record.return_distance_m = simulator.distance_m() - record.distance_m;
   }
