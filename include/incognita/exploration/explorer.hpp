@@ -183,7 +183,7 @@ class Explorer {
     return guarded(scan, [&](const Pose2& pose) { return follower_.command(pose, scan, params_.guard); });
   }
 
-  /// The same with another controller at the wheel: steer(T_map_robot, scan, follower) returns the Twist2 that is
+  /// The same with another controller at the wheel, such as MppiController: steer(T_map_robot, scan, follower) returns the Twist2 that is
   /// wanted; the const PathFollower& knows the path and how far along it the robot is. It is asked only while there is a path to drive:
   /// neither at its end nor in a retreat. Throws std::invalid_argument for a twist that is not finite, and what steer throws; then only the
   /// progress along the path, and a retreat that is over, have been noted.
