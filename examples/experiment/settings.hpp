@@ -33,6 +33,7 @@ struct Settings {
   std::string information = "big";
   std::string navigation = "geodesic";
   std::string strategy = "last-mile";
+  std::string controller = "follower";
   int candidates_max = 40;
   double gain_pose_spacing_m = 1.0;
   int gain_beams = 60;
@@ -86,6 +87,7 @@ struct Field {
       Field{"information", &Settings::information, {}, {"big", "log-big", "uniform", "size", "entropy"}},
       Field{"navigation", &Settings::navigation, {}, {"geodesic", "euclidean", "uniform"}},
       Field{"strategy", &Settings::strategy, {}, {"last-mile", "persistent", "online"}},
+      Field{"controller", &Settings::controller, {}, {"follower", "mppi"}},
       Field{"candidates_max", &Settings::candidates_max, {1, 100000}},
       Field{"gain_pose_spacing_m", &Settings::gain_pose_spacing_m, {0.01, 100}},
       Field{"gain_beams", &Settings::gain_beams, {1, 3600}},

@@ -26,6 +26,7 @@
 #include "incognita/simulation/start.hpp"
 #include "support/exploration_names.hpp"
 #include "support/mission.hpp"
+#include "support/steering.hpp"
 
 namespace experiment {
 namespace {
@@ -222,7 +223,8 @@ examples::MissionRecord explore(const Arena& arena, const Settings& settings, Si
   Explorer<DecisionMap, Measure, Filter> explorer(make_explorer_params(settings), std::move(map), make_measure(settings), std::move(filter));
   const examples::MissionParams params{simulator.T_world_robot().position(), settings.robot_radius_m, settings.range_max_m, settings.duration_s,
                                        false};
-  return examples::run_mission(explorer, simulator, arena.world, params, {}, nullptr, nullptr, [](const auto&) {});
+  examples::Steering steering(settings.controller, settings.robot_radius_m, explorer.map().lattice(), settings.speed_max_m_per_s);
+  return examples::run_mission(explorer, simulator, arena.world, params, {}, nullptr, nullptr, steering, [](const auto&) {});
 }
 
 }  // namespace

@@ -38,6 +38,7 @@
 #include "support/output_folder.hpp"
 #include "support/program.hpp"
 #include "support/report_html.hpp"
+#include "support/steering.hpp"
 
 namespace kth_explorer {
 namespace {
@@ -152,12 +153,13 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   if (!options.quiet) report = [&](const examples::ProgressRecord& p) { print_progress(p, options.duration_s); };
   const Pose2 T_world_start = simulator.T_start_world().inverse();
   const examples::MissionParams mission{simulator.T_world_robot().position(), robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
+  examples::Steering steering(options.controller, options.robot_radius_m, explorer.map().lattice());
   examples::MissionRecord before;
-  if (!options.resume_file.empty()) before = resumed_mission(options, explorer, simulator);
+  if (!options.resume_file.empty()) before = resumed_mission(options, explorer, simulator, steering);
   std::optional<RunRecorder> recorder;
   if (options.records || options.reports) {
     RecordingSetup setup;
-    setup.parameters_json = parameters_json(explorer, options).dump();
+    setup.parameters_json = parameters_json(explorer, steering, options).dump();
     setup.metric_names.assign(examples::recorded_metrics.begin(), examples::recorded_metrics.end());
     setup.plan = simulator.world().plan();
     setup.T_map_plan = simulator.T_start_world();
@@ -165,10 +167,10 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   }
   std::string saved;
   const auto save = [&](const examples::MissionRecord& now) {
-    if (!options.save_file.empty()) saved = saved_mission(options, explorer, simulator, now);
+    if (!options.save_file.empty()) saved = saved_mission(options, explorer, simulator, now, steering);
   };
   const examples::MissionRecord record =
-      examples::run_mission(explorer, simulator, floor, mission, std::move(before), report, recorder ? &*recorder : nullptr, save);
+      examples::run_mission(explorer, simulator, floor, mission, std::move(before), report, recorder ? &*recorder : nullptr, steering, save);
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
   if (recorder) recorder->ended({std::string(to_string(record.stop_reason)), metrics.dump()});

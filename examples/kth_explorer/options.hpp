@@ -27,6 +27,7 @@ struct Options {
   std::string strategy = "last-mile";
   std::string information = "big";
   std::string navigation = "geodesic";
+  std::string controller = "follower";
   double robot_radius_m = 0.2;
   std::optional<std::array<double, 4>> bounds_m;  ///< x0, y0, x1, y1 in the map file's frame
   std::string no_go_file;                         ///< empty: no no-go areas
@@ -105,6 +106,10 @@ struct Options {
       ->type_name("X,Y")
       ->check(examples::refuse_empty);
   app.option_defaults()->group("Mission");
+  app.add_option("--controller", options.controller,
+                 "who steers along the paths: pure pursuit, or model predictive path integral control, which plans 2.5 s ahead")
+      ->check(CLI::IsMember({"follower", "mppi"}))
+      ->capture_default_str();
   app.add_option("--radius", options.robot_radius_m, "of the robot, in metres, in (0, 5]: what it cannot reach is not gone to")
       ->type_name("M")
       ->capture_default_str();

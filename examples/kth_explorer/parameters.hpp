@@ -13,13 +13,14 @@
 #include "incognita/io/state_archive.hpp"
 #include "kth_explorer/options.hpp"
 #include "kth_explorer/saved_mission.hpp"
+#include "support/steering.hpp"
 
 namespace kth_explorer {
 
-/// The options of the command line as "mission", then the parameters of the explorer's parts, a group each; what a part was given by the
+/// The options of the command line as "mission", then the parameters of the explorer's parts and of the controller, a group each; what a part was given by the
 /// parameters of another is listed with those alone.
 template <class Explorer>
-[[nodiscard]] nlohmann::ordered_json parameters_json(const Explorer& explorer, const Options& options) {
+[[nodiscard]] nlohmann::ordered_json parameters_json(const Explorer& explorer, const examples::Steering& steering, const Options& options) {
   nlohmann::ordered_json json;
   auto& mission = json["mission"];
   mission["map"] = map_name(options);
@@ -35,10 +36,11 @@ template <class Explorer>
   mission["strategy"] = options.strategy;
   mission["information"] = options.information;
   mission["navigation"] = options.navigation;
+  mission["controller"] = options.controller;
   mission["returns"] = options.returns;
 
   incognita::StateWriter writer;
-  writer(explorer);
+  writer(explorer, steering);
   const std::string all = '\n' + writer.parameters();
   const auto is_listed_of = [&](const char* part, std::string_view line) {
     return all.find('\n' + (part + std::string(line)) + '\n') != std::string::npos;

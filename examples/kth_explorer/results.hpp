@@ -76,6 +76,7 @@ class CsvText {
   json["filter"] = options.filter;
   json["compass"] = options.compass;
   json["loops"] = options.loops;
+  json["controller"] = options.controller;
   json["robot_radius_m"] = options.robot_radius_m;
   json["strategy"] = options.strategy;
   json["information"] = options.information;

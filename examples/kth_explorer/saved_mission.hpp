@@ -13,6 +13,7 @@
 #include "kth_explorer/options.hpp"
 #include "support/mission.hpp"
 #include "support/output_folder.hpp"
+#include "support/steering.hpp"
 
 namespace kth_explorer {
 
@@ -25,11 +26,12 @@ namespace kth_explorer {
 struct MissionIdentity {
   std::string map;
   std::uint64_t seed;
+  std::string controller;
   std::uint32_t floor_checksum;  ///< of the plan's pixels
   incognita::Pose2 T_start_world;
 
   MissionIdentity(const Options& options, const incognita::Simulator& simulator)
-      : map(map_name(options)), seed(options.seed), T_start_world(simulator.T_start_world()) {
+      : map(map_name(options)), seed(options.seed), controller(options.controller), T_start_world(simulator.T_start_world()) {
     incognita::StateWriter floor;
     floor(simulator.world().plan());
     floor_checksum = incognita::checksum(floor.bytes());
@@ -37,38 +39,39 @@ struct MissionIdentity {
 
   template <class Fields>
   void list_fields(Fields& fields) const {
-    fields("map, seed, floor_checksum, T_start_world", map, seed, floor_checksum, T_start_world);
+    fields("map, seed, controller, floor_checksum, T_start_world", map, seed, controller, floor_checksum, T_start_world);
   }
 };
 
-/// The simulator and the record, and that they belong together.
+/// The simulator, the record and who steers, and that they belong together.
 struct SimulatedPart {
   MissionIdentity identity;
   incognita::Simulator simulator;
   examples::MissionRecord record;
+  examples::Steering steering;
 
   template <class Archive>
   void archive_state(Archive& archive) {
     archive.check("mission", identity);
-    archive(simulator, record);
+    archive(simulator, record, steering);
   }
 };
 
 /// The content of the file of a mission.
 template <class Explorer>
 [[nodiscard]] std::string saved_mission(const Options& options, const Explorer& explorer, const incognita::Simulator& simulator,
-                                        const examples::MissionRecord& record) {
+                                        const examples::MissionRecord& record, const examples::Steering& steering) {
   incognita::StateWriter writer;
-  writer(SimulatedPart{{options, simulator}, simulator, record});
+  writer(SimulatedPart{{options, simulator}, simulator, record, steering});
   incognita::StateWriter application;
   application(writer.parameters(), writer.bytes());
   return incognita::encode_mission(explorer, application.bytes());
 }
 
-/// Makes the explorer and the simulator those of options.resume_file, and returns the record. Throws InputError when it cannot be gone on
+/// Makes the explorer, the simulator and the steering those of options.resume_file, and returns the record. Throws InputError when it cannot be gone on
 /// with.
 template <class Explorer>
-[[nodiscard]] examples::MissionRecord resumed_mission(const Options& options, Explorer& explorer, incognita::Simulator& simulator) {
+[[nodiscard]] examples::MissionRecord resumed_mission(const Options& options, Explorer& explorer, incognita::Simulator& simulator, examples::Steering& steering) {
   const std::string application = incognita::load_mission(options.resume_file, explorer);
   std::string parameters;
   std::string bytes;
@@ -76,7 +79,7 @@ template <class Explorer>
   sections(parameters, bytes);
   sections.require_end();
   incognita::StateReader reader(bytes, parameters, options.resume_file);
-  SimulatedPart part{{options, simulator}, simulator, {}};
+  SimulatedPart part{{options, simulator}, simulator, {}, steering};
   reader(part);
   reader.require_end();
   if (part.simulator.time_s() > options.duration_s) {
@@ -84,6 +87,7 @@ template <class Explorer>
                                                          " s, more than --duration asks for");
   }
   simulator = std::move(part.simulator);
+  steering = std::move(part.steering);
   return std::move(part.record);
 }
 

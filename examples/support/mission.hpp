@@ -131,14 +131,14 @@ template <class Explorer>
 }
 
 /// Drives `explorer` in `simulator` until it stops or duration_s is over, and then back if asked to. `floor` is what it is asked to
-/// explore, and `record` that of what has been explored, of a simulator that is not at its start. `report` is called once a simulated second
-/// of the exploration, at_end(record) where it ends, before the way back. `recorder` follows the explorer, the way back included, unless it
+/// explore, and `record` that of what has been explored, of a simulator that is not at its start. steering(explorer, scan) is what the robot
+/// is told (OwnCommand, Steering). `report` is called once a simulated second of the exploration, at_end(record) where it ends, before the way back. `recorder` follows the explorer, the way back included, unless it
 /// is null.
-template <class Explorer, class AtEnd>
+template <class Explorer, class Steering, class AtEnd>
 [[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, const incognita::World& floor,
                                         const MissionParams& params, MissionRecord record,
                                         const std::function<void(const ProgressRecord&)>& report, incognita::RunRecorder* recorder,
-                                        AtEnd&& at_end) {
+                                        Steering& steering, AtEnd&& at_end) {
   using namespace incognita;
   const Clock::time_point begin = Clock::now();
   const Pose2& T_start_world = simulator.T_start_world();
@@ -205,7 +205,7 @@ template <class Explorer, class AtEnd>
   };
   if (simulator.steps() == 0) {
     on_scan();
-    record.command = explorer.command(simulator.scan());
+    record.command = steering(explorer, simulator.scan());
   }
   drive_on(explorer, simulator, record.command, params.duration_s, on_scan, [&] {
     const Pose2 truth = simulator.T_start_robot();
@@ -215,7 +215,7 @@ template <class Explorer, class AtEnd>
       record.progress.push_back(progress());
       if (report) report(record.progress.back());
     }
-  });
+  }, steering);
   record.wall_time_s += seconds_since(begin);
   at_end(record);
   const ProgressRecord last = progress();
@@ -244,7 +244,7 @@ template <class Explorer, class AtEnd>
       decide();
       remember_poses();
     };
-    drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {});
+    drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {}, steering);
     record.has_returned = explorer.stopped() == StopReason::returned;
     record.return_distance_m = simulator.distance_m() - record.distance_m;
   }

@@ -10,12 +10,12 @@
 
 #include "incognita/core/random.hpp"
 #include "incognita/exploration/explorer.hpp"
+#include "incognita/geometry/unicycle.hpp"
 #include "incognita/metrics/coverage.hpp"
 #include "incognita/metrics/visible_floor.hpp"
 #include "incognita/planning/collision_guard.hpp"
 #include "incognita/simulation/range_sensor.hpp"
 #include "incognita/simulation/robot.hpp"
-#include "incognita/simulation/unicycle.hpp"
 #include "support/belief_output.hpp"
 #include "support/tutorial.hpp"
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "incognita/core/angles.hpp"
+#include "incognita/core/counter_random.hpp"
 #include "incognita/core/error.hpp"
 #include "incognita/core/fast_log.hpp"
 #include "incognita/core/floor.hpp"

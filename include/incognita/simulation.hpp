@@ -5,7 +5,6 @@
 /// - simulation/plan_drawing.hpp: floor plans drawn in metres
 /// - simulation/world.hpp: a floor plan with exact ranges and collisions
 /// - simulation/start.hpp: start poses, drawn or checked
-/// - simulation/unicycle.hpp: the arc that a twist drives
 /// - simulation/robot.hpp: a disc that drives and collides
 /// - simulation/odometry.hpp: noisy odometry
 /// - simulation/range_sensor.hpp: a noisy range sensor
@@ -33,5 +32,4 @@
 #include "incognita/simulation/room_rows.hpp"
 #include "incognita/simulation/simulator.hpp"
 #include "incognita/simulation/start.hpp"
-#include "incognita/simulation/unicycle.hpp"
 #include "incognita/simulation/world.hpp"

@@ -52,6 +52,7 @@ refused "a strategy that is not there" strategy --strategy sideways
 refused "an information that is not there" information --information gossip
 refused "a navigation that is not there" navigation --navigation stars
 refused "a filter that is not there" filter --filter kalman
+refused "a controller that is not there" controller --controller joystick
 refused "a radius of nothing" radius --radius 0
 refused "a radius that fits nowhere" room --radius 2 --bounds 1,1,3,3
 refused "bounds that are no box" bounds --bounds 1,2,3
@@ -90,7 +91,7 @@ rmdir blocked/overview.png
 output=blocked refused "a recording whose name is a folder" recording.incognita --record --duration 1e6
 rm -r blocked
 
-help_names help map cells frontiers entropy alpha filter compass loops strategy information navigation radius bounds \
+help_names help map cells frontiers entropy alpha filter compass loops strategy information navigation controller radius bounds \
   no-go return save resume duration seed start resolution threads output record report quiet
 
 # run NAME ARGUMENTS...: 20 s of a mission into the folder NAME.
@@ -119,7 +120,7 @@ for file in metrics.json map.yaml map.png trajectory_estimated.tum trajectory_tr
   [ -s one/$file ] || fail "$file is missing or empty"
 done
 [ "$(ls -A one | wc -l)" -eq 11 ] || fail "other files than promised: $(ls -A one)"
-for key in map seed entropy alpha compass loops resolution_m duration_s scans distance_m collisions decisions stop_reason \
+for key in map seed entropy alpha compass loops controller resolution_m duration_s scans distance_m collisions decisions stop_reason \
   translation_rmse_m translation_mae_m heading_rmse_rad nees_mean map_error map_uncertainty_bits_per_step \
   explored_fraction explored_area_m2 wall_time_s real_time_factor threads; do
   grep -q "^  \"$key\": " one/metrics.json || fail "metrics.json lacks $key"
@@ -169,6 +170,14 @@ untimed() { cut -d, -f1-6 "$1/decisions.csv"; }
 run_quietly dispersion --threads 1 --duration 5 --cells dispersion --filter none --save dispersion.mission
 run_quietly resumed_dispersion --threads 1 --duration 8 --cells dispersion --filter none --resume dispersion.mission
 
+# So is one that MPPI steers.
+run_quietly mppi_first --threads 1 --duration 10 --seed 1 --controller mppi --save mppi.mission
+run_quietly mppi_whole --threads 1 --duration 15 --seed 1 --controller mppi
+run_quietly mppi_resumed --threads 2 --duration 15 --seed 1 --controller mppi --resume mppi.mission
+same_metrics mppi_whole mppi_resumed
+cmp -s mppi_whole/trajectory_true.tum mppi_resumed/trajectory_true.tum || fail "MPPI goes on otherwise than if it had never stopped"
+cmp -s mppi_whole/trajectory_true.tum whole/trajectory_true.tum && fail "MPPI steers as the follower does"
+
 cp first.mission flipped.mission
 printf '\x55' | dd of=flipped.mission bs=1 seek=100000 conv=notrunc status=none
 cmp -s first.mission flipped.mission && fail "the flipped byte is the same"
@@ -179,6 +188,7 @@ refused "half a mission" "short.mission: is damaged" --resume short.mission
 refused "a file that is no mission" "is not a mission file" --resume other.txt
 refused "a mission of another map" 'mission.map = embedded' --resume first.mission --map ../inputs/room.xml --start 5,5
 refused "a mission of another seed" 'mission.seed = 1' --resume first.mission --seed 2
+refused "a mission of another controller" 'mission.controller = follower' --resume first.mission --controller mppi
 refused "a mission of another start" 'mission.T_start_world' --resume first.mission --start 19,12
 refused "a mission of other cells" 'cells.rule = 0' --resume first.mission --cells log-odds
 refused "a mission of another filter" 'filter.start' --resume first.mission --filter dead-reckoning

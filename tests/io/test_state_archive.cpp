@@ -16,6 +16,7 @@
 #include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/cells/log_odds.hpp"
 #include "incognita/map/map.hpp"
+#include "incognita/planning/mppi_params.hpp"
 #include "incognita/simulation/simulator.hpp"
 #include "support.hpp"
 
@@ -100,6 +101,7 @@ TEST_CASE("parameters list all that they have", "[io]") {
   check_lists_all<LineSegmentParams>();
   check_lists_all<RangeBearingNoise>();
   check_lists_all<FollowParams>();
+  check_lists_all<MppiParams>(sizeof(int));  // threads, which may differ
   check_lists_all<CollisionGuardParams>();
   check_lists_all<RetreatParams>();
   check_lists_all<TravelParams>();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "incognita/core/error.hpp"
 #include "incognita/entropy/behavioral.hpp"
 #include "incognita/estimation/dvl_ekf.hpp"
 #include "incognita/estimation/slam.hpp"
@@ -178,23 +180,24 @@ class Explorer {
 
   /// The speeds that follow the chosen path, slowed down before what `scan`, the latest, shows. Zero without a goal and in a pause.
   [[nodiscard]] Twist2 command(const Scan<2>& scan) {
-    if (decision_.chosen() == nullptr || is_paused_ || correction().lost) return {};
-    const Pose2& pose = belief().pose;
-    if (retreat_) {
-      if (!retreat_->is_over(pose)) return retreat_->command(pose, scan);
-      retreat_.reset();
-      must_decide_ = true;
-      learn_from_retreat();
-    }
-    const Twist2 wanted = follower_.command(pose, scan, params_.guard);
-    const Twist2 allowed = guard_command(wanted, scan, params_.guard);
-    const bool blocked = wanted.speed_m_per_s > 0.0 && allowed.speed_m_per_s == 0.0;
-    if (!blocked) {
-      unblocked_s_ = time_s_;
-    } else if (time_s_ - unblocked_s_ > params_.blocked_max_s && may_retreat()) {
-      retreat_.emplace(pose, scan, params_.guard, params_.retreat);
-    }
-    return allowed;
+    return guarded(scan, [&](const Pose2& pose) { return follower_.command(pose, scan, params_.guard); });
+  }
+
+  /// The same with another controller at the wheel, such as MppiController: steer(T_map_robot, scan, follower) returns the Twist2 that is
+  /// wanted; the const PathFollower& knows the path and how far along it the robot is. It is asked only while there is a path to drive:
+  /// neither at its end nor in a retreat. Throws std::invalid_argument for a twist that is not finite, and what steer throws; then only the
+  /// progress along the path, and a retreat that is over, have been noted.
+  template <class Steer>
+  [[nodiscard]] Twist2 command(const Scan<2>& scan, Steer&& steer) {
+    return guarded(scan, [&](const Pose2& pose) {
+      follower_.advance(pose);
+      if (follower_.is_finished()) return Twist2{};
+      const Twist2 wanted = steer(pose, scan, std::as_const(follower_));
+      require(std::isfinite(wanted.speed_m_per_s), "Explorer::command", "the wanted speed_m_per_s", wanted.speed_m_per_s, "finite");
+      require(std::isfinite(wanted.turn_rate_rad_per_s), "Explorer::command", "the wanted turn_rate_rad_per_s", wanted.turn_rate_rad_per_s,
+              "finite");
+      return wanted;
+    });
   }
 
   /// The frontiers of the map as it is now, of the allowed area; the uncertainty frontiers among them are those of the last decision.
@@ -217,6 +220,8 @@ class Explorer {
   [[nodiscard]] const PoseBelief& belief() const { return slam_.belief(); }  ///< T_map_robot and its covariance
   [[nodiscard]] const SlamReport& last_scan() const { return last_scan_; }  ///< what became of it
   [[nodiscard]] const CorrectionReport& correction() const { return last_scan_.correction; }  ///< by the last scan
+  /// The cells that params().area closes; those of the map's box at least are asked of.
+  [[nodiscard]] const ClosedCells<2>& closed() const { return closed_; }
   /// What is free, occupied and unknown in the map, with the explorer's thresholds.
   [[nodiscard]] const OccupancyLayer<2>& occupancy() const { return occupancy_; }
   [[nodiscard]] const EntropyTable& entropy() const { return entropy_; }  ///< what gains are measured by
@@ -249,6 +254,28 @@ class Explorer {
 
  private:
   using Cell = typename MapType::CellType;
+
+  /// wanted_at(T_map_robot), as far as the guard allows it; when that is nothing for long, or a retreat has begun, the way out.
+  template <class Wanted>
+  [[nodiscard]] Twist2 guarded(const Scan<2>& scan, Wanted&& wanted_at) {
+    if (decision_.chosen() == nullptr || is_paused_ || correction().lost) return {};
+    const Pose2& pose = belief().pose;
+    if (retreat_) {
+      if (!retreat_->is_over(pose)) return retreat_->command(pose, scan);
+      retreat_.reset();
+      must_decide_ = true;
+      learn_from_retreat();
+    }
+    const Twist2 wanted = wanted_at(pose);
+    const Twist2 allowed = guard_command(wanted, scan, params_.guard);
+    const bool blocked = wanted.speed_m_per_s > 0.0 && allowed.speed_m_per_s == 0.0;
+    if (!blocked) {
+      unblocked_s_ = time_s_;
+    } else if (time_s_ - unblocked_s_ > params_.blocked_max_s && may_retreat()) {
+      retreat_.emplace(pose, scan, params_.guard, params_.retreat);
+    }
+    return allowed;
+  }
 
   /// Whether all that was decided is where the map is, or not far from there: what is done with it costs as much as it is long.
   [[nodiscard]] bool lies_in_map() const {

@@ -86,6 +86,18 @@ class PathFollower {
     return command(T_map_robot, {near_hits_m(T_map_robot, scan, range_m), keep_m});
   }
 
+  /// Takes note of how far the robot has come, and whether that is the end, as command() does too: for robots that another controller
+  /// steers along the path.
+  void advance(const Pose2& T_map_robot) {
+    if (finished_) return;
+    const Eigen::Vector2d position = T_map_robot.position();
+    progress_m_ = path_.nearest_along_m(position, progress_m_, progress_m_ + params_.lookahead_m);
+    finished_ = path_.length_m() - progress_m_ <= params_.goal_tolerance_m &&
+                distance(path_.points_m().back(), position) <= params_.goal_tolerance_m;
+  }
+
+  [[nodiscard]] const FollowParams& params() const { return params_; }  ///< as given
+
   [[nodiscard]] bool is_finished() const { return finished_; }  ///< whether it is at the path's end
 
   /// How far along the path the robot has come; never decreases.
@@ -115,16 +127,9 @@ class PathFollower {
   };
 
   [[nodiscard]] Twist2 command(const Pose2& T_map_robot, const Surroundings& around) {
+    advance(T_map_robot);
     if (finished_) return {};
-    const Eigen::Vector2d position = T_map_robot.position();
-    progress_m_ = path_.nearest_along_m(position, progress_m_, progress_m_ + params_.lookahead_m);
-    const double end_distance_m = distance(path_.points_m().back(), position);
-    if (path_.length_m() - progress_m_ <= params_.goal_tolerance_m &&
-        end_distance_m <= params_.goal_tolerance_m) {
-      finished_ = true;
-      return {};
-    }
-
+    const double end_distance_m = distance(path_.points_m().back(), T_map_robot.position());
     const Target target = aim(T_map_robot, around);
     // Once begun, a turn is finished: an arc that begins far aside swings wide.
     turning_ = std::abs(target.aside_rad) > (turning_ ? 0.25 : 1.0) * params_.turn_in_place_rad;

@@ -7,7 +7,7 @@
 #include "incognita/core/random.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/twist2.hpp"
-#include "incognita/simulation/unicycle.hpp"
+#include "incognita/geometry/unicycle.hpp"
 
 namespace incognita {
 

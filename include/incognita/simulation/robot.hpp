@@ -9,9 +9,9 @@
 #include "incognita/geometry/pose.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/twist2.hpp"
+#include "incognita/geometry/unicycle.hpp"
 #include "incognita/sensor/obstacle_field.hpp"
 #include "incognita/simulation/start.hpp"
-#include "incognita/simulation/unicycle.hpp"
 #include "incognita/simulation/world.hpp"
 
 namespace incognita {
