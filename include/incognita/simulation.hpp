@@ -1,5 +1,7 @@
 /// The door of simulation/: a robot in a floor plan, for examples, tests and experiments.
 ///
+/// - simulation/building.hpp: office buildings of any size from a seed, by building_params.hpp, corridor_net.hpp, room_rows.hpp and furniture.hpp;
+///   building_layout.hpp says which rooms and doors they have
 /// - simulation/plan_drawing.hpp: floor plans drawn in metres
 /// - simulation/world.hpp: a floor plan with exact ranges and collisions
 /// - simulation/start.hpp: start poses, drawn or checked
@@ -19,10 +21,16 @@
 ///     }
 #pragma once
 
+#include "incognita/simulation/building.hpp"
+#include "incognita/simulation/building_layout.hpp"
+#include "incognita/simulation/building_params.hpp"
+#include "incognita/simulation/corridor_net.hpp"
+#include "incognita/simulation/furniture.hpp"
 #include "incognita/simulation/odometry.hpp"
 #include "incognita/simulation/plan_drawing.hpp"
 #include "incognita/simulation/range_sensor.hpp"
 #include "incognita/simulation/robot.hpp"
+#include "incognita/simulation/room_rows.hpp"
 #include "incognita/simulation/simulator.hpp"
 #include "incognita/simulation/start.hpp"
 #include "incognita/simulation/unicycle.hpp"

@@ -35,8 +35,8 @@ inline void fill_area(FloorPlan& plan, const Box<Point<2>>& area_m, FloorCell ce
   fill_cells(plan, {line(area_m.lower), line(area_m.upper)}, cell);
 }
 
-/// A building's floor from (0, 0) to `size_m`, with walls within its edges. Throws std::invalid_argument for lengths that are not finite and > 0, and
-/// std::length_error above FloorPlan::cell_count_max cells.
+/// A building's floor from (0, 0) to `size_m`, with walls within its edges. Throws std::invalid_argument for lengths that are not finite
+/// and > 0, and std::length_error above FloorPlan::cell_count_max cells.
 [[nodiscard]] inline FloorPlan walled_floor(const Point<2>& size_m, double resolution_m, double wall_m) {
   require_positive("walled_floor", "resolution_m", resolution_m);
   require_positive("walled_floor", "wall_m", wall_m);
@@ -69,7 +69,7 @@ inline void draw_wall(FloorPlan& plan, const WallParams& params, Along along, do
                       const std::vector<double>& doors_m) {
   require_positive("draw_wall", "wall_m", params.wall_m);
   require_positive("draw_wall", "door_m", params.door_m);
-  for (const double number_m : {across_m, from_m, to_m}) require(std::isfinite(number_m), "draw_wall", "where the wall lies, in m,", number_m, "finite");
+  for (const double at_m : {across_m, from_m, to_m}) require(std::isfinite(at_m), "draw_wall", "where the wall lies, in m,", at_m, "finite");
   for (const double door : doors_m) require(std::isfinite(door), "draw_wall", "where a door lies, in m,", door, "finite");
   const auto piece = [&](double low_m, double high_m) {
     const Point<2> low(low_m, across_m - 0.5 * params.wall_m);
