@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -63,6 +64,23 @@ TEST_CASE("A rectangle takes the cells whose centres it holds, wherever the plan
       const bool holds = area_m.contains(lattice.center_m(plan.index_at(cell)));
       REQUIRE((plan[cell] == FloorCell::floor) == holds);
     }
+  }
+}
+
+TEST_CASE("A wall and its door are as wide wherever they lie", "[simulation]") {
+  Random random(2);
+  const auto cells = [](const FloorPlan& plan, FloorCell cell) { return std::count(plan.values().begin(), plan.values().end(), cell); };
+  for (int trial = 0; trial < 200; ++trial) {
+    FloorPlan plan(Lattice<2>(0.1, {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)}), {{0, 0}, {60, 60}}, FloorCell::floor);
+    const Along along = random.index(2) == 0 ? Along::x : Along::y;
+    const double across_m = random.uniform(1.1, 4.9);
+    const double door_m = random.uniform(1.5, 4.5);
+    const double wall_m = random.uniform(0.01, 0.5);
+    draw_wall(plan, {.wall_m = wall_m, .door_m = 0.7}, along, across_m, -9.0, 9.0, {});
+    const auto thickness_cells = std::max(1L, std::lround(wall_m / 0.1));
+    REQUIRE(cells(plan, FloorCell::wall) == 60 * thickness_cells);
+    draw_wall(plan, {.wall_m = wall_m, .door_m = 0.7}, along, across_m, -9.0, 9.0, {door_m});
+    REQUIRE(cells(plan, FloorCell::wall) == 53 * thickness_cells);
   }
 }
 

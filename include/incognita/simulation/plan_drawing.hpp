@@ -57,27 +57,42 @@ enum class Along {
   y   ///< upwards
 };
 
-/// How thick walls are, and how wide the doors in them.
+/// How thick walls are, and how wide the doors in them. Both are rounded to whole cells, one at least.
 struct WallParams {
   double wall_m = 0.1;  ///< > 0
   double door_m = 1.1;  ///< > 0
 };
 
-/// A wall from from_m to to_m along an axis, its middle at across_m on the other, with doors in it whose middles are at doors_m. Throws
-/// std::invalid_argument for a number that is not finite, or a width that is not > 0.
+/// A wall from from_m to to_m along an axis, its middle at across_m on the other, with doors in it whose middles are at doors_m, to the nearest
+/// cell. Throws std::invalid_argument for a number that is not finite, or a width that is not > 0.
 inline void draw_wall(FloorPlan& plan, const WallParams& params, Along along, double across_m, double from_m, double to_m,
                       const std::vector<double>& doors_m) {
   require_positive("draw_wall", "wall_m", params.wall_m);
   require_positive("draw_wall", "door_m", params.door_m);
   for (const double at_m : {across_m, from_m, to_m}) require(std::isfinite(at_m), "draw_wall", "where the wall lies, in m,", at_m, "finite");
   for (const double door : doors_m) require(std::isfinite(door), "draw_wall", "where a door lies, in m,", door, "finite");
-  const auto piece = [&](double low_m, double high_m) {
-    const Point<2> low(low_m, across_m - 0.5 * params.wall_m);
-    const Point<2> high(high_m, across_m + 0.5 * params.wall_m);
-    return along == Along::x ? Box<Point<2>>{low, high} : Box<Point<2>>{{low.y(), low.x()}, {high.y(), high.x()}};
+  // As many cells wherever it lies: no wall is lost where its faces are rounded to the same line.
+  const double cell_m = plan.resolution_m();
+  const auto wide_m = [&](double width_m) { return cell_m * std::max(1.0, std::round(width_m / cell_m)); };
+  const auto low_m = [&](double middle_m, double width_m, int axis) {
+    const double origin_m = plan.lattice().origin_m()[axis];
+    return origin_m + cell_m * std::round((middle_m - 0.5 * width_m - origin_m) / cell_m);
+  };
+  const int axis = along == Along::x ? 0 : 1;
+  const double lower_m = low_m(across_m, params.wall_m, 1 - axis);
+  const auto piece = [&](double begin_m, double end_m) {
+    Box<Point<2>> area_m;
+    area_m.lower[axis] = begin_m;
+    area_m.upper[axis] = end_m;
+    area_m.lower[1 - axis] = lower_m;
+    area_m.upper[1 - axis] = lower_m + wide_m(params.wall_m);
+    return area_m;
   };
   fill_area(plan, piece(from_m, to_m), FloorCell::wall);
-  for (const double door : doors_m) fill_area(plan, piece(door - 0.5 * params.door_m, door + 0.5 * params.door_m), FloorCell::floor);
+  for (const double door : doors_m) {
+    const double begin_m = low_m(door, params.door_m, axis);
+    fill_area(plan, piece(begin_m, begin_m + wide_m(params.door_m)), FloorCell::floor);
+  }
 }
 
 /// Desks, shelves, boxes: rectangles in metres that a robot cannot enter. Throws as fill_area does.
