@@ -2,12 +2,10 @@
 #pragma once
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
@@ -45,14 +43,6 @@ struct Options {
   bool reports = false;  ///< and records
   bool quiet = false;
 };
-
-/// A CLI11 check: CLI11 itself wraps -1 around and clamps what is too large.
-[[nodiscard]] inline std::string refuse_bad_seed(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole ? "" : "\"" + text + "\" is not a whole number in 0..2^64-1";
-}
 
 /// Throws CLI::ParseError; one whose exit code is 0 asks for the help text.
 [[nodiscard]] inline Options parse_options(CLI::App& app, int argc, char** argv) {
@@ -108,7 +98,7 @@ struct Options {
       ->capture_default_str();
   app.add_option("--seed", options.seed, "of the noise and of the start")
       ->type_name("N")
-      ->check(refuse_bad_seed)
+      ->check(examples::refuse_bad_seed)
       ->capture_default_str();
   app.option_defaults()->group("Input");
   app.add_option("--start", start, "start in the map file's frame, in metres; without it, a seeded place in the largest region")

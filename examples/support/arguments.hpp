@@ -3,11 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "incognita/io/number.hpp"
 
@@ -16,6 +19,14 @@ namespace examples {
 /// A CLI11 check: an empty text is most likely a variable that is not set.
 [[nodiscard]] inline std::string refuse_empty(const std::string& text) {
   return text.empty() ? "is empty" : "";
+}
+
+/// A CLI11 check: CLI11 itself wraps -1 around and clamps what is too large.
+[[nodiscard]] inline std::string refuse_bad_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole ? "" : "\"" + text + "\" is not a whole number in 0..2^64-1";
 }
 
 /// The options of programs that run many trials: how many side by side, where results go, and whether anything is printed. `trials` is
