@@ -15,7 +15,8 @@ namespace incognita {
 
 /// Lays out a building from (0, 0) to `size_m`: the footprint is cut into blocks by corridors, and blocks are filled with rows of rooms that face
 /// them, or made halls. A disc of `robot_radius_m` gets from each place where it fits, at the centre of a cell, to all others. Wherever both
-/// sides have room for it, the corridors form rings. Throws std::invalid_argument as BuildingParams::validate does. O(rooms).
+/// sides have room for it, the corridors form rings. Throws std::invalid_argument as BuildingParams::validate does. O(area), whatever the
+/// resolution.
 [[nodiscard]] inline BuildingLayout lay_out_building(const BuildingParams& params, Random& random) {
   params.validate();
   const detail::BuildingCells cells(params);

@@ -34,15 +34,6 @@ struct BuildingParams {
 
   /// Throws std::invalid_argument for values out of their bounds, and for a building that is too small for two rooms with a corridor between.
   void validate() const;
-
-  /// For archives of states, see docs/mission_file.md. Throws what the archive throws.
-  template <class Fields>
-  void list_fields(Fields& fields) const {
-    fields("size_m, resolution_m, robot_radius_m, wall_m, door_m, corridor_m, main_corridor_m", size_m, resolution_m, robot_radius_m, wall_m,
-           door_m, corridor_m, main_corridor_m);
-    fields("room_side_min_m, room_depth_max_m, room_width_max_m, hall_side_max_m, hall_chance, furniture_share", room_side_min_m,
-           room_depth_max_m, room_width_max_m, hall_side_max_m, hall_chance, furniture_share);
-  }
 };
 
 namespace detail {
