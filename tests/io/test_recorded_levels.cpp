@@ -58,7 +58,9 @@ TEST_CASE("levels lie on the side of the thresholds on which their log-odds do, 
     const bool are_multiples = trial % 2 == 0;
     const float free_below = static_cast<float>(are_multiples ? -step * (1.0 + static_cast<double>(random.index(9))) : -random.uniform(0.02, 5.0));
     const float occupied_above = static_cast<float>(are_multiples ? step * (1.0 + static_cast<double>(random.index(9))) : random.uniform(0.02, 5.0));
-    const auto [setup, thresholds] = setup_of(0.1, step, free_below, occupied_above);
+    const std::pair made = setup_of(0.1, step, free_below, occupied_above);
+    const RecordingSetup& setup = made.first;
+    const OccupancyThresholds& thresholds = made.second;
     ValueMap map;
     for (float& value : map.grid_.values()) {
       const float near = random.index(2) == 0 ? free_below : occupied_above;
@@ -95,7 +97,9 @@ TEST_CASE("levels lie on the side of the thresholds on which their log-odds do, 
 }
 
 TEST_CASE("levels are rounded away from 0, so that what was touched is seen to be") {
-  const auto [setup, thresholds] = setup_of(0.1, 0.5, -1.0F, 1.0F);
+  const std::pair made = setup_of(0.1, 0.5, -1.0F, 1.0F);
+  const RecordingSetup& setup = made.first;
+  const OccupancyThresholds& thresholds = made.second;
   ValueMap map;
   const float values[] = {0.0F, 0.01F, -0.01F, 0.5F, 0.51F, -1.0F, -1.01F, 1.0F, 1.01F, 1e9F, -1e9F};
   const int expected[] = {0, 1, -1, 1, 2, -2, -3, 2, 3, 127, -127};
@@ -112,7 +116,9 @@ TEST_CASE("levels are rounded away from 0, so that what was touched is seen to b
 TEST_CASE("levels follow a map that grows, is looked at now and then, and is replaced") {
   Random random(2);
   const double resolution_m = GENERATE(0.1, 0.23);
-  const auto [setup, thresholds] = setup_of(resolution_m, 0.5, -1.0F, 1.0F);
+  const std::pair made = setup_of(resolution_m, 0.5, -1.0F, 1.0F);
+  const RecordingSetup& setup = made.first;
+  const OccupancyThresholds& thresholds = made.second;
   MapParams params;
   params.resolution_m = resolution_m;
   const auto walls = room::box(room::kTurned, 30.0, 4.0);
@@ -156,7 +162,9 @@ TEST_CASE("levels follow a map that grows, is looked at now and then, and is rep
 }
 
 TEST_CASE("a map without cells has no levels") {
-  const auto [setup, thresholds] = setup_of(0.1, 0.5, -1.0F, 1.0F);
+  const std::pair made = setup_of(0.1, 0.5, -1.0F, 1.0F);
+  const RecordingSetup& setup = made.first;
+  const OccupancyThresholds& thresholds = made.second;
   RecordedLevels levels(setup, thresholds);
   RecordedFrame frame;
   levels.note(Map<>{}, false);
