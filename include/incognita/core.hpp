@@ -10,3 +10,4 @@
 #include "incognita/core/parallel.hpp"
 #include "incognita/core/quadrature.hpp"
 #include "incognita/core/random.hpp"
+#include "incognita/core/split_mix.hpp"

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "incognita/core/fast_log.hpp"
+#include "incognita/core/split_mix.hpp"
 
 namespace incognita {
 
@@ -19,10 +20,10 @@ struct NormalPair {
 class CounterRandom {
  public:
   /// The same seed gives the same draws; neighbouring seeds give unrelated ones.
-  explicit CounterRandom(std::uint64_t seed) : key_(mixed(seed + increment)) {}
+  explicit CounterRandom(std::uint64_t seed) : key_(split_mixed(seed + split_mix_increment)) {}
 
   /// 64 random bits, the `number`th of the stream.
-  [[nodiscard]] std::uint64_t word(std::uint64_t number) const { return mixed(key_ + (number + 1) * increment); }
+  [[nodiscard]] std::uint64_t word(std::uint64_t number) const { return split_mixed(key_ + (number + 1) * split_mix_increment); }
 
   /// The `number`th pair of normal draws, of the words 2 number and 2 number + 1 (Box and Muller). Without a branch or a call; their
   /// distribution is that of exact arithmetic to 1e-9.
@@ -42,14 +43,6 @@ class CounterRandom {
   }
 
  private:
-  static constexpr std::uint64_t increment = 0x9E3779B97F4A7C15ULL;
-
-  [[nodiscard]] static std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31U);
-  }
-
   std::uint64_t key_;
 };
 

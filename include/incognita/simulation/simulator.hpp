@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "incognita/core/error.hpp"
+#include "incognita/core/split_mix.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/geometry/twist2.hpp"
 #include "incognita/sensor/scan.hpp"
@@ -83,10 +84,7 @@ class Simulator {
  private:
   /// Neighbouring seeds and streams give unrelated ones (Steele et al. 2014, SplitMix64).
   [[nodiscard]] static std::uint64_t stream_seed(std::uint64_t seed, std::uint64_t stream) {
-    std::uint64_t z = (2 * seed + stream + 1) * 0x9E3779B97F4A7C15ULL;
-    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31U);
+    return split_mixed((2 * seed + stream + 1) * split_mix_increment);
   }
 
   World world_;
