@@ -12,10 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/heading_aid.hpp"
-#include "incognita/entropy/behavioral.hpp"
-#include "incognita/entropy/renyi.hpp"
-#include "incognita/entropy/shannon.hpp"
-#include "incognita/entropy/tsallis.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
 #include "incognita/estimation/filter_with_map.hpp"
 #include "incognita/exploration/explorer.hpp"
@@ -24,6 +20,7 @@
 #include "incognita/map/cells/t_bayes.hpp"
 #include "incognita/simulation/simulator.hpp"
 #include "incognita/simulation/start.hpp"
+#include "support/entropies.hpp"
 #include "support/exploration_names.hpp"
 #include "support/mission.hpp"
 #include "support/steering.hpp"
@@ -33,16 +30,8 @@ namespace {
 
 using namespace incognita;
 using Json = nlohmann::ordered_json;
-using Measure = std::function<double(double)>;
 
 double squared(double root) { return root * root; }
-
-Measure make_measure(const Settings& settings) {
-  if (settings.entropy == "shannon") return Shannon{};
-  if (settings.entropy == "renyi") return Renyi{settings.alpha};
-  if (settings.entropy == "tsallis") return Tsallis{settings.alpha};
-  return Behavioral{settings.alpha};
-}
 
 TBayes make_t_bayes(const Settings& settings) {
   TBayes::Params params = settings.rule == "literal" ? TBayes::literal_params() : TBayes::Params{};
@@ -122,8 +111,6 @@ SimulatorParams make_simulator_params(const Settings& settings) {
 /// So many digits as matter.
 double rounded(double value, double step) { return std::isfinite(value) ? std::round(value / step) * step : value; }
 
-Json number_or_null(bool is_there, double value) { return is_there ? Json(value) : Json(); }
-
 /// A share of the time, by where the robot truly was at each scan.
 double corridor_share(const examples::MissionRecord& record, const Arena& arena, const Pose2& T_world_start) {
   std::size_t corridor = 0;
@@ -190,14 +177,14 @@ std::string row_of(const examples::MissionRecord& record, const Arena& arena, co
   metrics["translation_rmse_m"] = record.trajectory_error.translation_rmse_m();
   metrics["translation_mae_m"] = record.trajectory_error.translation_mae_m();
   metrics["heading_rmse_rad"] = record.trajectory_error.heading_rmse_rad();
-  metrics["nees"] = number_or_null(record.nees.count() > 0, record.nees.count() > 0 ? record.nees.position() : 0.0);
+  metrics["nees"] = record.nees.count() > 0 ? Json(record.nees.position()) : Json();
   metrics["map_error"] = record.map_error;
   // The paper's T is the time that was given, also where the robot was done before.
   metrics["bits_per_step"] = record.map_uncertainty_bits_per_step * record.duration_s / settings.duration_s;
   metrics["explored_fraction"] = record.explored_fraction;
   metrics["explored_share_of_time"] = explored_share_of_time(record, settings.duration_s);
   const examples::ProgressRecord* const most = record.first_with_explored(0.9);
-  metrics["time_to_90_percent_s"] = number_or_null(most != nullptr, most != nullptr ? most->time_s : 0.0);
+  metrics["time_to_90_percent_s"] = most != nullptr ? Json(most->time_s) : Json();
   metrics["distance_m"] = record.distance_m;
   metrics["decisions"] = record.decisions.size();
   metrics["collisions"] = record.collisions;
@@ -220,7 +207,8 @@ std::string cost_of(const examples::MissionRecord& record) {
 
 template <class DecisionMap, class Filter>
 examples::MissionRecord explore(const Arena& arena, const Settings& settings, Simulator& simulator, DecisionMap map, Filter filter) {
-  Explorer<DecisionMap, Measure, Filter> explorer(make_explorer_params(settings), std::move(map), make_measure(settings), std::move(filter));
+  Explorer<DecisionMap, examples::Measure, Filter> explorer(make_explorer_params(settings), std::move(map),
+                                                            examples::make_measure(settings.entropy, settings.alpha), std::move(filter));
   const examples::MissionParams params{simulator.T_world_robot().position(), settings.robot_radius_m, settings.range_max_m, settings.duration_s,
                                        false};
   examples::Steering steering(settings.controller, settings.robot_radius_m, explorer.map().lattice(), settings.speed_max_m_per_s);

@@ -12,10 +12,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "incognita/entropy/behavioral.hpp"
-#include "incognita/entropy/renyi.hpp"
-#include "incognita/entropy/shannon.hpp"
-#include "incognita/entropy/tsallis.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
 #include "incognita/io/belief_numpy.hpp"
 #include "incognita/io/floor_plan.hpp"
@@ -33,6 +29,7 @@
 #include "kth_explorer/parameters.hpp"
 #include "kth_explorer/results.hpp"
 #include "kth_explorer/saved_mission.hpp"
+#include "support/entropies.hpp"
 #include "support/exploration_names.hpp"
 #include "support/mission.hpp"
 #include "support/output_folder.hpp"
@@ -42,15 +39,6 @@
 
 namespace kth_explorer {
 namespace {
-
-using Measure = std::function<double(double)>;
-
-Measure make_measure(const Options& options) {
-  if (options.entropy == "shannon") return incognita::Shannon{};
-  if (options.entropy == "renyi") return incognita::Renyi{options.alpha};
-  if (options.entropy == "tsallis") return incognita::Tsallis{options.alpha};
-  return [behavioral = incognita::Behavioral{options.alpha}](double p) { return behavioral(p); };
-}
 
 incognita::World load_world(const Options& options) {
   return incognita::World(options.map_file.empty()
@@ -146,7 +134,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   params.threads = options.threads;
   MapParams map_params;
   map_params.resolution_m = options.resolution_m;
-  Explorer<Map<Cell>, Measure, Filter> explorer(params, Map<Cell>(map_params), make_measure(options),
+  Explorer<Map<Cell>, examples::Measure, Filter> explorer(params, Map<Cell>(map_params), examples::make_measure(options.entropy, options.alpha),
                                                 make_filter<Filter>(options));
 
   std::function<void(const examples::ProgressRecord&)> report;
