@@ -1,12 +1,12 @@
 /// What rows say: values of a method on a map, differences on the same starts and seeds, and claims judged by them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "experiment/rows.hpp"

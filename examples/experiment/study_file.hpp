@@ -38,7 +38,7 @@ class StudyReader {
     if (const toml::node* node = root.get("defaults")) {
       defaults = node->as_table();
       if (defaults == nullptr) fail(*node, "defaults is not a table");
-      for (auto&& [key, value] : *defaults) static_cast<void>(field_of(key, value, {}));
+      for (auto&& [key, value] : *defaults) require_setting(key, {});
     }
     const std::vector<const toml::table*> maps = tables(root, "map");
     const std::vector<const toml::table*> methods = tables(root, "method");
@@ -169,18 +169,12 @@ class StudyReader {
     return static_cast<std::int64_t>(number(node, key, bounds));
   }
 
-  /// The field that a key names; `others` are keys that name something else.
-  [[nodiscard]] const Field* field_of(const toml::key& key, const toml::node& value, std::initializer_list<std::string_view> others) const {
-    if (std::find(others.begin(), others.end(), key.str()) != others.end()) return nullptr;
-    const Field* field = find_field(key.str());
-    if (field == nullptr) {
-      std::vector<std::string_view> known(others.begin(), others.end());
-      for (const Field& each : fields()) known.push_back(each.name);
-      fail(key.source(), "there is no setting " + quoted(key.str()) + "; there are " + list_of(known));
-    }
-    Settings ignored;
-    set(ignored, *field, value);
-    return field;
+  /// That a key names a setting, or is one of `others`; what it is set to is read by add_settings.
+  void require_setting(const toml::key& key, std::initializer_list<std::string_view> others) const {
+    if (find_field(key.str()) != nullptr || std::find(others.begin(), others.end(), key.str()) != others.end()) return;
+    std::vector<std::string_view> known(others.begin(), others.end());
+    for (const Field& field : fields()) known.push_back(field.name);
+    fail(key.source(), "there is no setting " + quoted(key.str()) + "; there are " + list_of(known));
   }
 
   void set(Settings& settings, const Field& field, const toml::node& node) const {
@@ -230,7 +224,7 @@ class StudyReader {
     }
     if (table.contains("door_max_m")) map.door_max_m = number(*table.get("door_max_m"), "door_max_m", {0.3, 20});
     for (auto&& [key, value] : table) {
-      static_cast<void>(field_of(key, value, {"name", "file", "plan", "width_m", "height_m", "plan_seed", "door_max_m"}));
+      require_setting(key, {"name", "file", "plan", "width_m", "height_m", "plan_seed", "door_max_m"});
     }
     study_.maps.push_back(std::move(map));
   }
@@ -246,7 +240,7 @@ class StudyReader {
       fail(table.contains("like") ? *table.get("like") : *table.get("name"),
            "there is no method " + quoted(like) + "; there are " + list_of(names));
     }
-    for (auto&& [key, value] : table) static_cast<void>(field_of(key, value, {"name", "like", "what"}));
+    for (auto&& [key, value] : table) require_setting(key, {"name", "like", "what"});
     study_.methods.push_back({called, text_or(table, "what", std::string(known->what))});
   }
 
