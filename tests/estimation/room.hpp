@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "incognita/core/angles.hpp"
 #include "incognita/geometry/pose2.hpp"
 #include "incognita/sensor/scan.hpp"
 
@@ -81,6 +82,12 @@ Eigen::Matrix3d random_covariance(Random& random, double sigma) {
   Eigen::Matrix3d root;
   for (Eigen::Index entry = 0; entry < 9; ++entry) root(entry) = random.normal(0.0, sigma);
   return root * root.transpose() + 1e-3 * sigma * sigma * Eigen::Matrix3d::Identity();
+}
+
+inline double position_error_m(const Pose2& a, const Pose2& b) { return (a.position() - b.position()).norm(); }
+
+inline double heading_error_rad(const Pose2& a, const Pose2& b) {
+  return std::abs(incognita::angle_between_rad(a.yaw_rad, b.yaw_rad));
 }
 
 }  // namespace room

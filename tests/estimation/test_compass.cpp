@@ -16,10 +16,10 @@ using namespace incognita;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 LineSegment segment(double angle_rad, double length_m, double variance_rad2 = 1e-6) {
-  return {std::remainder(angle_rad, kPi), variance_rad2, length_m};
+  return {std::remainder(angle_rad, pi), variance_rad2, length_m};
 }
 
 Scan<2> noisy_scan(Random& random, const std::vector<room::Wall>& walls, const Pose2& T_map_sensor,
@@ -32,9 +32,9 @@ Scan<2> noisy_scan(Random& random, const std::vector<room::Wall>& walls, const P
   return scan;
 }
 
-Pose2 random_pose(Random& random) {
+Pose2 pose_inside(Random& random) {
   return room::kTurned *
-         Pose2{random.uniform(-2.0, 2.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)};
+         Pose2{random.uniform(-2.0, 2.0), random.uniform(-1.0, 1.0), random.uniform(-pi, pi)};
 }
 
 /// A room of straight walls that do not meet: no corner falls between two beams.
@@ -62,7 +62,7 @@ std::vector<room::Wall> crooked_room(const double (&turns_rad)[4]) {
     Eigen::Matrix2d normals;
     Eigen::Vector2d offsets;
     for (int n = 0; n < 2; ++n) {
-      const double middle_rad = 0.3 + 0.5 * kPi * (side + n);
+      const double middle_rad = 0.3 + 0.5 * pi * (side + n);
       const double normal_rad = middle_rad + turns_rad[(side + n) % 4];
       normals.row(n) << std::cos(normal_rad), std::sin(normal_rad);
       offsets[n] = 3.0 * normals.row(n).dot(Eigen::RowVector2d(std::cos(middle_rad), std::sin(middle_rad)));
@@ -78,7 +78,7 @@ void require_silent(const Walls& walls) {
   Random random(11);
   Compass compass;
   for (int n = 0; n < 200; ++n) {
-    const Pose2 pose{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-kPi, kPi)};
+    const Pose2 pose{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-pi, pi)};
     CAPTURE(n);
     REQUIRE_FALSE(compass.measure(noisy_scan(random, walls, pose), pose.yaw_rad).has_value());
   }
@@ -91,8 +91,8 @@ TEST_CASE("Angles are wrapped by quarter turns", "[estimation]") {
   for (int draw = 0; draw < 1000; ++draw) {
     const double angle_rad = random.uniform(-20.0, 20.0);
     const double wrapped_rad = wrap_quarter_turn_rad(angle_rad);
-    REQUIRE(std::abs(wrapped_rad) <= 0.25 * kPi);
-    const double quarters = (angle_rad - wrapped_rad) / (0.5 * kPi);
+    REQUIRE(std::abs(wrapped_rad) <= 0.25 * pi);
+    const double quarters = (angle_rad - wrapped_rad) / (0.5 * pi);
     REQUIRE(quarters == Approx(std::round(quarters)).margin(1e-12));
   }
 }
@@ -100,20 +100,20 @@ TEST_CASE("Angles are wrapped by quarter turns", "[estimation]") {
 TEST_CASE("Parallel and perpendicular walls have one direction, exactly", "[estimation]") {
   Random random(2);
   for (int draw = 0; draw < 200; ++draw) {
-    const double angle_rad = random.uniform(-kPi, kPi);
+    const double angle_rad = random.uniform(-pi, pi);
     const double wall_rad2 = draw % 2 == 0 ? 0.0 : 1e-4;
     std::vector<LineSegment> segments;
     double information = 0.0;
     for (int n = 0; n < 6; ++n) {
       const double quarters = static_cast<double>(random.index(4));
       segments.push_back(
-          segment(angle_rad + 0.5 * kPi * quarters, random.uniform(0.6, 5.0), random.uniform(1e-7, 1e-5)));
+          segment(angle_rad + 0.5 * pi * quarters, random.uniform(0.6, 5.0), random.uniform(1e-7, 1e-5)));
       information += 1.0 / (segments.back().variance_rad2 + wall_rad2);
     }
     const std::optional<WallDirection> found = wall_direction(segments, wall_rad2, {});
     REQUIRE(found.has_value());
     REQUIRE(std::abs(wrap_quarter_turn_rad(found->angle_rad - angle_rad)) < 1e-12);
-    REQUIRE(std::abs(found->angle_rad) <= 0.25 * kPi);
+    REQUIRE(std::abs(found->angle_rad) <= 0.25 * pi);
     REQUIRE(found->share == Approx(1.0));
     REQUIRE(found->walls == 6);
     // Independent errors: the variance of a mean weighted by information is the information's inverse.
@@ -128,7 +128,7 @@ TEST_CASE("Walls that are off count by their information, and outliers not at al
   // Off by +-: the mean is weighted by 1 / (variance + wall variance).
   const double wall_rad2 = 1e-4;
   const std::vector<LineSegment> two{segment(0.2 + 0.01, 3.0, 1e-5),
-                                     segment(0.2 - 0.02 + 0.5 * kPi, 2.0, 4e-5)};
+                                     segment(0.2 - 0.02 + 0.5 * pi, 2.0, 4e-5)};
   const double w0 = 1.0 / (1e-5 + wall_rad2);
   const double w1 = 1.0 / (4e-5 + wall_rad2);
   const double mean_rad = 0.2 + (w0 * 0.01 - w1 * 0.02) / (w0 + w1);
@@ -139,11 +139,11 @@ TEST_CASE("Walls that are off count by their information, and outliers not at al
   REQUIRE(of_two->walls_variance_rad2 == Approx((w0 * w0 + w1 * w1) * wall_rad2 / std::pow(w0 + w1, 2)));
 
   // 8 m of walls and 2 m of others, which turn the first guess but not the result.
-  const std::vector<LineSegment> walls{segment(0.3, 5.0), segment(0.3 + 0.5 * kPi, 3.0)};
+  const std::vector<LineSegment> walls{segment(0.3, 5.0), segment(0.3 + 0.5 * pi, 3.0)};
   for (const double off_rad : {-0.7, -0.3, -0.15, 0.15, 0.5}) {
     std::vector<LineSegment> with_outliers = walls;
     with_outliers.push_back(segment(0.3 + off_rad, 1.2));
-    with_outliers.push_back(segment(0.3 - 0.5 * off_rad + 0.5 * kPi, 0.8));
+    with_outliers.push_back(segment(0.3 - 0.5 * off_rad + 0.5 * pi, 0.8));
     const std::optional<WallDirection> found = wall_direction(with_outliers, wall_rad2, {});
     CAPTURE(off_rad);
     REQUIRE(found.has_value());
@@ -158,7 +158,7 @@ TEST_CASE("Scattered walls show how far they are off", "[estimation]") {
   std::vector<LineSegment> segments;
   for (int n = 0; n < 4000; ++n) {
     segments.push_back(
-        segment(0.1 + 0.5 * kPi * (n % 2) + random.normal(0.0, std::sqrt(1e-4 + 2e-5)), 1.0, 2e-5));
+        segment(0.1 + 0.5 * pi * (n % 2) + random.normal(0.0, std::sqrt(1e-4 + 2e-5)), 1.0, 2e-5));
   }
   const std::optional<WallDirection> found = wall_direction(segments, 1e-4, {});
   REQUIRE(found.has_value());
@@ -191,18 +191,18 @@ TEST_CASE("A compass measures the heading in a room to its noise", "[estimation]
       Compass compass(params);
       REQUIRE(compass.share() == 0.0);
       for (int n = 0; n < 10; ++n) {
-        const Pose2 pose = random_pose(random);
+        const Pose2 pose = pose_inside(random);
         const auto heading = compass.measure(noisy_scan(random, walls, pose), pose.yaw_rad);
         // The first scan says where the walls stand.
         REQUIRE(heading.has_value() == (n > 0));
       }
-      const Pose2 truth = random_pose(random);
+      const Pose2 truth = pose_inside(random);
       const double believed_rad = wrap_angle_rad(truth.yaw_rad + (seed % 2 == 0 ? 0.03 : -0.03));
       const auto heading = compass.measure(noisy_scan(random, walls, truth), believed_rad);
       REQUIRE(heading.has_value());
       const double error_rad = angle_between_rad(heading->yaw_rad, truth.yaw_rad);
       CAPTURE(is_open, seed, error_rad, heading->variance_rad2);
-      REQUIRE(std::abs(heading->yaw_rad) <= kPi);
+      REQUIRE(std::abs(heading->yaw_rad) <= pi);
       REQUIRE(error_rad * error_rad < 16.0 * heading->variance_rad2);
       REQUIRE(compass.share() > 0.9);
       mean_rad += error_rad / seeds;
@@ -223,7 +223,7 @@ TEST_CASE("A compass with its defaults errs by less than twice what it states", 
   Compass compass;
   int measured = 0;
   for (int n = 0; n < 200; ++n) {
-    const Pose2 truth = random_pose(random);
+    const Pose2 truth = pose_inside(random);
     const auto heading = compass.measure(noisy_scan(random, walls, truth),
                                          wrap_angle_rad(truth.yaw_rad + random.normal(0.0, 0.01)));
     if (!heading) continue;
@@ -244,7 +244,7 @@ TEST_CASE("Scans of one view count as one", "[estimation]") {
     Compass compass(params);
     std::optional<Compass::Heading> heading;
     for (int n = 0; n < 2; ++n) {
-      const Pose2 pose = random_pose(random);
+      const Pose2 pose = pose_inside(random);
       heading = compass.measure(noisy_scan(random, walls, pose), pose.yaw_rad);
     }
     REQUIRE(heading.has_value());
@@ -271,14 +271,14 @@ TEST_CASE("A heading is as uncertain as its scan and the mean of those before", 
 TEST_CASE("A compass is silent where buildings have no direction", "[estimation]") {
   std::vector<Eigen::Vector2d> corners;
   for (int n = 0; n < 48; ++n)
-    corners.emplace_back(3.0 * std::cos(n * kPi / 24.0), 3.0 * std::sin(n * kPi / 24.0));
+    corners.emplace_back(3.0 * std::cos(n * pi / 24.0), 3.0 * std::sin(n * pi / 24.0));
   SECTION("a round room") { require_silent(polygon(corners)); }
 
   SECTION("two grids, turned by 30 degrees against each other") {
     // Eight walls of one length in the order of their angles close to a convex room.
     corners = {{0.6, -3.2}};
     for (const double degrees : {0.0, 30.0, 90.0, 120.0, 180.0, 210.0, 270.0}) {
-      const double angle_rad = 0.2 + degrees * kPi / 180.0;
+      const double angle_rad = 0.2 + degrees * pi / 180.0;
       corners.push_back(corners.back() + 2.2 * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
     }
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -296,7 +296,7 @@ TEST_CASE("A compass is silent where buildings have no direction", "[estimation]
 
 TEST_CASE("A compass is silent until most of the walls it saw had a direction", "[estimation]") {
   // 4 m of wall along x, and 2 m at 22.5 degrees to either side of a right angle with it: a share of a half.
-  const Eigen::Vector2d oblique = 2.0 * Eigen::Vector2d(std::cos(0.375 * kPi), std::sin(0.375 * kPi));
+  const Eigen::Vector2d oblique = 2.0 * Eigen::Vector2d(std::cos(0.375 * pi), std::sin(0.375 * pi));
   const Eigen::Vector2d right(2.5, -1.0);
   const std::vector<room::Wall> half{
       {{-2.0, -3.0}, {2.0, -3.0}},
@@ -306,14 +306,14 @@ TEST_CASE("A compass is silent until most of the walls it saw had a direction", 
   Random random(5);
   Compass compass;
   for (int n = 0; n < 40; ++n) {
-    const Pose2 pose{0.0, 0.0, random.uniform(-kPi, kPi)};
+    const Pose2 pose{0.0, 0.0, random.uniform(-pi, pi)};
     REQUIRE_FALSE(compass.measure(noisy_scan(random, half, pose, 0.001), pose.yaw_rad).has_value());
     REQUIRE(compass.share() == Approx(0.5).margin(0.03));
   }
   // Forty halves and n ones have a mean of 0.6 at n = 10, and the first measurement says where the walls
   // stand.
   for (int n = 1; n <= 40; ++n) {
-    const Pose2 pose = random_pose(random);
+    const Pose2 pose = pose_inside(random);
     const bool is_silent = !compass.measure(noisy_scan(random, walls, pose, 0.001), pose.yaw_rad).has_value();
     CAPTURE(n, compass.share());
     if (n < 7) REQUIRE(is_silent);
@@ -322,14 +322,14 @@ TEST_CASE("A compass is silent until most of the walls it saw had a direction", 
 }
 
 TEST_CASE("A compass falls silent in a building of two wings at an angle", "[estimation]") {
-  const Pose2 T_first_second{0.0, 0.0, kPi / 6.0};
+  const Pose2 T_first_second{0.0, 0.0, pi / 6.0};
   const std::vector<room::Wall> wings[] = {room::box(room::kTurned), room::box(room::kTurned * T_first_second)};
   Random random(12);
   Compass compass;
   const auto headings_in = [&](int wing, int scans) {
     int headings = 0;
     for (int n = 0; n < scans; ++n) {
-      const Pose2 pose = random_pose(random);
+      const Pose2 pose = pose_inside(random);
       if (compass.measure(noisy_scan(random, wings[wing], pose), pose.yaw_rad)) ++headings;
     }
     return headings;
@@ -350,15 +350,15 @@ TEST_CASE("A compass does not believe in a turn beyond its walls, nor learn from
     Random random(6);
     Compass compass;
     for (int n = 0; n < 200; ++n) {
-      const Pose2 pose = random_pose(random);
+      const Pose2 pose = pose_inside(random);
       (void)compass.measure(noisy_scan(random, walls, pose), pose.yaw_rad);
     }
     for (int n = 0; n < 50; ++n) {
-      const Pose2 pose = random_pose(random);
+      const Pose2 pose = pose_inside(random);
       const double turned_rad = wrap_angle_rad(pose.yaw_rad + off_rad);
       REQUIRE_FALSE(compass.measure(noisy_scan(random, walls, pose), turned_rad).has_value());
     }
-    const Pose2 truth = random_pose(random);
+    const Pose2 truth = pose_inside(random);
     const auto heading = compass.measure(noisy_scan(random, walls, truth), truth.yaw_rad);
     REQUIRE(heading.has_value());
     REQUIRE(std::abs(angle_between_rad(heading->yaw_rad, truth.yaw_rad)) < 0.003);
@@ -375,14 +375,14 @@ TEST_CASE("A compass learns how far the walls of a building are off", "[estimati
   double scatter_rad2 = 0.0;
   const int scans = 1500;
   for (int n = 0; n < scans; ++n) {
-    const Pose2 pose = random_pose(random);
+    const Pose2 pose = pose_inside(random);
     (void)in_open_room.measure(noisy_scan(random, open_room(), pose, 0.005), pose.yaw_rad);
     (void)in_room.measure(noisy_scan(random, room::box(room::kTurned), pose), pose.yaw_rad);
     double turns_rad[4];
     double mean_rad = 0.0;
     for (double& turn_rad : turns_rad) mean_rad += 0.25 * (turn_rad = random.normal(0.0, 0.02));
     for (const double turn_rad : turns_rad) scatter_rad2 += std::pow(turn_rad - mean_rad, 2) / (4.0 * scans);
-    const Pose2 inside{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)};
+    const Pose2 inside{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-pi, pi)};
     (void)in_crooked.measure(noisy_scan(random, crooked_room(turns_rad), inside), inside.yaw_rad);
   }
   // Only what was assumed is left, of 4 walls a scan or more.

@@ -17,7 +17,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Surfaces as scans from some poses leave them.
 SurfaceMap<2> mapped(const std::vector<room::Wall>& walls, const std::vector<Pose2>& poses) {
@@ -53,9 +53,9 @@ SurfaceMap<2> random_surfaces(Random& random) {
   for (int piece = 0; piece < 6; ++piece) {
     const Eigen::Vector2d from{random.uniform(-2.0, 2.0),
                                random.uniform(-2.0, 2.0)};  // braces: drawn in order
-    const double angle_rad = random.uniform(-kPi, kPi);
+    const double angle_rad = random.uniform(-pi, pi);
     const Eigen::Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
-    const double view_rad = random.uniform(-kPi, kPi);
+    const double view_rad = random.uniform(-pi, pi);
     const bool is_blob = piece % 3 == 2;
     for (int n = 0; n < 60; ++n) {
       const Eigen::Vector2d point =
@@ -69,7 +69,7 @@ SurfaceMap<2> random_surfaces(Random& random) {
 }
 
 Scan<2> random_scan(Random& random, std::size_t beams) {
-  const double first_rad = random.uniform(-kPi, kPi);
+  const double first_rad = random.uniform(-pi, pi);
   Scan<2> scan(planar_beams(beams, first_rad, random.uniform(0.02, 0.2), 4.0));
   for (std::size_t beam = 0; beam < beams; ++beam) {
     if (random.uniform() < 0.8) scan.set_range_m(beam, random.uniform(0.3, 2.5));
@@ -94,13 +94,13 @@ class BruteForce {
     double yaw_step_rad = params.yaw_step_rad > 0.0 ? params.yaw_step_rad : params.step_m / longest_m;
     half_x_ = static_cast<int>(std::floor(window.x_m / params.step_m + 1e-6));
     half_y_ = static_cast<int>(std::floor(window.y_m / params.step_m + 1e-6));
-    half_turn_ = static_cast<int>(std::floor(std::min(window.yaw_rad, kPi) / yaw_step_rad + 1e-6));
+    half_turn_ = static_cast<int>(std::floor(std::min(window.yaw_rad, pi) / yaw_step_rad + 1e-6));
     turns_ = 2 * half_turn_ + 1;
-    circle_ = window.yaw_rad >= kPi;
+    circle_ = window.yaw_rad >= pi;
     if (circle_) {
-      turns_ = static_cast<int>(std::ceil(2.0 * kPi / yaw_step_rad - 1e-6));
+      turns_ = static_cast<int>(std::ceil(2.0 * pi / yaw_step_rad - 1e-6));
       half_turn_ = turns_ / 2;
-      yaw_step_rad = 2.0 * kPi / turns_;
+      yaw_step_rad = 2.0 * pi / turns_;
     }
     yaw_step_rad_ = yaw_step_rad;
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -132,7 +132,7 @@ class BruteForce {
         if (scan.reading(beam) != Reading::hit) continue;
         const Eigen::Vector2d end = turned * scan.end_point_m(beam) / params.step_m;
         const Eigen::Vector2d direction = turned * scan.direction(beam);
-        const double eighths = std::atan2(direction.y(), direction.x()) / (kPi / 4.0);
+        const double eighths = std::atan2(direction.y(), direction.x()) / (pi / 4.0);
         ends.push_back({static_cast<int>(std::floor(end.x() + reach)),
                         static_cast<int>(std::floor(end.y() + reach)),
                         static_cast<int>(std::lround(eighths) + 8) % 8});
@@ -266,7 +266,7 @@ TEST_CASE("A search finds what looking at every pose finds", "[estimation]") {
     CAPTURE(draw);
     const SurfaceMap<2> surfaces = random_surfaces(random);
     const Scan<2> scan = random_scan(random, 20);
-    const Pose2 center{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)};
+    const Pose2 center{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-pi, pi)};
     params.step_m = draw % 4 == 3 ? 0.1 : 0.05;
     params.yaw_step_rad = draw % 2 == 0 ? 0.0 : 0.04;
     params.candidates_max = draw % 3 == 0 ? 1 : 12;
@@ -275,9 +275,9 @@ TEST_CASE("A search finds what looking at every pose finds", "[estimation]") {
     // From a single pose to windows of several levels, square and not, a part of the circle and all of it.
     SearchWindow window{random.uniform(0.0, 0.5), random.uniform(0.0, 0.5), random.uniform(0.0, 0.3)};
     if (draw % 6 == 1) window = {random.uniform(1.0, 1.6), random.uniform(0.3, 1.6), 0.2};
-    if (draw % 12 == 2) window = {0.9, 1.3, kPi};
+    if (draw % 12 == 2) window = {0.9, 1.3, pi};
     if (draw % 12 == 8) window = {0.0, 0.0, 4.0};
-    if (window.yaw_rad >= kPi) params.yaw_step_rad = 0.1;
+    if (window.yaw_rad >= pi) params.yaw_step_rad = 0.1;
 
     CorrelativeSearch<2> search(params);
     const Eigen::Matrix3d covariance = room::random_covariance(random, draw % 4 == 0 ? 0.05 : 0.3);
@@ -298,12 +298,12 @@ TEST_CASE("A search is seamless all around", "[estimation]") {
     params.separation_rad = draw % 2 == 0 ? 1.0 : 0.0;
     CorrelativeSearch<2> search(params);
     // The truth is where the first turn meets the last.
-    const Pose2 truth = room::kTurned * Pose2{0.0, 0.0, random.uniform(-kPi, kPi)};
-    const Pose2 center{truth.x_m, truth.y_m, truth.yaw_rad + kPi + random.uniform(-0.02, 0.02)};
+    const Pose2 truth = room::kTurned * Pose2{0.0, 0.0, random.uniform(-pi, pi)};
+    const Pose2 center{truth.x_m, truth.y_m, truth.yaw_rad + pi + random.uniform(-0.02, 0.02)};
     const Scan<2> scan = room::scan_of(walls, truth, 30);
-    REQUIRE(compare(search, scan, surfaces, center, nullptr, {0.05, 0.0, kPi}) > 2);
+    REQUIRE(compare(search, scan, surfaces, center, nullptr, {0.05, 0.0, pi}) > 2);
     REQUIRE(std::abs(angle_between_rad(
-                search.find(scan, surfaces, center, {0.0, 0.0, kPi}).at(0).pose.yaw_rad, truth.yaw_rad)) <
+                search.find(scan, surfaces, center, {0.0, 0.0, pi}).at(0).pose.yaw_rad, truth.yaw_rad)) <
             0.02);
   }
 }
@@ -313,16 +313,16 @@ TEST_CASE("A displaced and turned robot is found in a room at any angle", "[esti
   CorrelativeSearch<2> search;
   for (int draw = 0; draw < 20; ++draw) {
     CAPTURE(draw);
-    const Pose2 T_map_room{random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-kPi, kPi)};
+    const Pose2 T_map_room{random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-pi, pi)};
     const auto walls = asymmetric_room(T_map_room);
     const SurfaceMap<2> surfaces =
         mapped(walls, {T_map_room * Pose2{-0.5, -0.5, 0.0}, T_map_room * Pose2{2.0, 0.0, 1.0},
                        T_map_room * Pose2{-2.5, 1.7, 0}});
     const Pose2 truth =
-        T_map_room * Pose2{random.uniform(-1.5, 0.7), random.uniform(-1.5, 0.7), random.uniform(-kPi, kPi)};
+        T_map_room * Pose2{random.uniform(-1.5, 0.7), random.uniform(-1.5, 0.7), random.uniform(-pi, pi)};
     const Scan<2> scan = room::scan_of(walls, truth, 180);
     const bool is_kidnapped = draw % 5 == 4;
-    const SearchWindow window = is_kidnapped ? SearchWindow{2.0, 2.0, kPi} : SearchWindow{};
+    const SearchWindow window = is_kidnapped ? SearchWindow{2.0, 2.0, pi} : SearchWindow{};
     const Pose2 guess{truth.x_m + random.uniform(-1.0, 1.0) * window.x_m,
                       truth.y_m + random.uniform(-1.0, 1.0) * window.y_m,
                       truth.yaw_rad + random.uniform(-1.0, 1.0) * window.yaw_rad};
@@ -414,7 +414,7 @@ TEST_CASE("Where there is nothing to find, nothing is found", "[estimation]") {
   const SurfaceMap<2> surfaces = mapped(walls, {Pose2{}});
   REQUIRE_FALSE(search.find(scan, surfaces, Pose2{}, SearchWindow{}).empty());
   REQUIRE(search.find(scan, SurfaceMap<2>(), Pose2{}, SearchWindow{}).empty());
-  REQUIRE(search.find(scan, SurfaceMap<2>(), Pose2{}, SearchWindow{1.0, 1.0, kPi}).empty());
+  REQUIRE(search.find(scan, SurfaceMap<2>(), Pose2{}, SearchWindow{1.0, 1.0, pi}).empty());
   REQUIRE(search.find(scan, surfaces, Pose2{50.0, -70.0, 1.0}, SearchWindow{}).empty());
   REQUIRE(search.find(Scan<2>(circular_beams(90, 5.0)), surfaces, PoseBelief{}, SearchWindow{}).empty());
   Scan<2> invalid(circular_beams(90, 5.0));

@@ -24,12 +24,6 @@ DvlEkf::Params start_at(const Pose2& pose, int scans_held = 0) {
   return params;
 }
 
-double position_error_m(const Pose2& a, const Pose2& b) { return (a.position() - b.position()).norm(); }
-
-double heading_error_rad(const Pose2& a, const Pose2& b) {
-  return std::abs(angle_between_rad(a.yaw_rad, b.yaw_rad));
-}
-
 /// A filter and a map that have learnt the room at its true pose.
 template <class MapType>
 DvlEkf learnt(const DvlEkf::Params& params, MapType& map, int scans = 3) {
@@ -59,7 +53,7 @@ TEST_CASE("The start pose is held for a number of scans of a robot that stands",
     const CorrectionReport report = filter.correct(scan, map);
     filter.learn(scan);
     REQUIRE(report.associations == 0);
-    REQUIRE(position_error_m(filter.belief().pose, start) == 0.0);
+    REQUIRE(room::position_error_m(filter.belief().pose, start) == 0.0);
     REQUIRE(filter.belief().pose.yaw_rad == start.yaw_rad);
     REQUIRE(filter.belief().covariance == kSmall);
   }
@@ -102,7 +96,7 @@ TEST_CASE("Prediction is dead reckoning", "[estimation]") {
   DvlEkf filter(params);
   filter.predict({1.0, 0.0, 0.1}, 0.5);
   const PoseBelief expected = propagate(params.start, {1.0, 0.0, 0.1}, params.noise, 0.5);
-  REQUIRE(position_error_m(filter.belief().pose, expected.pose) == 0.0);
+  REQUIRE(room::position_error_m(filter.belief().pose, expected.pose) == 0.0);
   REQUIRE(filter.belief().covariance == expected.covariance);
   const PoseBelief imagined = filter.imagine_motion(params.start, {1.0, 0.0, 0.1}, 0.5);
   REQUIRE(imagined.covariance == expected.covariance);
@@ -114,14 +108,14 @@ TEST_CASE("Registration in a map built at the true pose finds a displaced robot"
   DvlEkf filter = learnt(start_at(truth), map);
   const Scan<2> scan = room::scan_of(kRoom, truth);
   filter.predict({0.04, 0.03, 2.0 * 3.14159265 / 180.0}, 0.5);
-  REQUIRE(position_error_m(filter.belief().pose, truth) == Approx(0.05).epsilon(0.01));
+  REQUIRE(room::position_error_m(filter.belief().pose, truth) == Approx(0.05).epsilon(0.01));
   CorrectionReport report;
   for (int correction = 0; correction < 15; ++correction) {
     report = filter.correct(scan, map);
     filter.predict({}, 0.1);
   }
-  REQUIRE(position_error_m(filter.belief().pose, truth) < 0.002);
-  REQUIRE(heading_error_rad(filter.belief().pose, truth) < 0.001);
+  REQUIRE(room::position_error_m(filter.belief().pose, truth) < 0.002);
+  REQUIRE(room::heading_error_rad(filter.belief().pose, truth) < 0.001);
   REQUIRE(report.associations == 360);
   REQUIRE(report.residual_rms_m < 0.01);
 }
@@ -150,11 +144,11 @@ TEST_CASE("A robot that drives around a turned room stays localised", "[estimati
     filter.correct(scan, map);
     map.update(scan, filter.belief().pose, filter.belief().covariance);
     filter.learn(scan);
-    squares_m2 += std::pow(position_error_m(filter.belief().pose, truth), 2) / 600.0;
+    squares_m2 += std::pow(room::position_error_m(filter.belief().pose, truth), 2) / 600.0;
   }
-  CAPTURE(position_error_m(odometry.belief().pose, truth));
+  CAPTURE(room::position_error_m(odometry.belief().pose, truth));
   REQUIRE(std::sqrt(squares_m2) < 0.02);
-  REQUIRE(heading_error_rad(filter.belief().pose, truth) < 0.01);
+  REQUIRE(room::heading_error_rad(filter.belief().pose, truth) < 0.01);
 }
 
 TEST_CASE("A heading that is measured corrects as the scalar Kalman formula says", "[estimation]") {
@@ -177,8 +171,8 @@ TEST_CASE("A heading that is measured corrects as the scalar Kalman formula says
     const Eigen::Vector3d step = covariance.col(2) * innovation_rad / (sigma_rad * sigma_rad);
     const Pose2 expected{params.start.pose.x_m + step.x(), params.start.pose.y_m + step.y(),
                          params.start.pose.yaw_rad + step.z()};
-    REQUIRE(position_error_m(filter.belief().pose, expected) < 1e-7);
-    REQUIRE(heading_error_rad(filter.belief().pose, expected) < 1e-7);
+    REQUIRE(room::position_error_m(filter.belief().pose, expected) < 1e-7);
+    REQUIRE(room::heading_error_rad(filter.belief().pose, expected) < 1e-7);
     REQUIRE((filter.belief().covariance - covariance).norm() < 1e-7);
   }
   DvlEkf filter;
@@ -249,13 +243,13 @@ TEST_CASE("Form::ray runs, and sees no heading that it does not share with the p
     displaced.correct(room::scan_of(kRoom, room::kTurned), map);
     displaced.predict({}, 1.0);
   }
-  REQUIRE(position_error_m(displaced.belief().pose, room::kTurned) < 0.07);
+  REQUIRE(room::position_error_m(displaced.belief().pose, room::kTurned) < 0.07);
 
   // Without a hit, and with a map that knows nothing: the prior.
   DvlEkf alone(params);
   REQUIRE(alone.correct(room::scan_of(kRoom, room::kTurned), Map<>()).associations == 0);
   REQUIRE(alone.correct(Scan<2>(circular_beams(36, 10.0)), map).associations == 0);
-  REQUIRE(position_error_m(alone.belief().pose, room::kTurned) == 0.0);
+  REQUIRE(room::position_error_m(alone.belief().pose, room::kTurned) == 0.0);
 }
 
 TEST_CASE("Form::ray takes the first occupied cell along each beam, as (11) has it", "[estimation]") {
@@ -337,7 +331,7 @@ TEST_CASE("An imagined scan weighs as many scans as it stands for, by (11a)", "[
     };
     const PoseBelief seen = filter.imagine_scan(prior, hits, 60, scans);
     REQUIRE((seen.covariance - expected(coupled_information)).norm() < 1e-8);
-    REQUIRE(position_error_m(seen.pose, prior.pose) == 0.0);
+    REQUIRE(room::position_error_m(seen.pose, prior.pose) == 0.0);
     REQUIRE(
         (decoupled.imagine_scan(prior, hits, 60, scans).covariance - expected(decoupled_information)).norm() <
         1e-8);

@@ -12,14 +12,14 @@ using namespace incognita;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
-SurfaceMap<2> random_surfaces(Random& random) {
+SurfaceMap<2> random_lines(Random& random) {
   SurfaceMap<2> surfaces;
   for (int piece = 0; piece < 5; ++piece) {
     const Eigen::Vector2d from{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-    const double angle_rad = random.uniform(-kPi, kPi);
-    const double view_rad = random.uniform(-kPi, kPi);
+    const double angle_rad = random.uniform(-pi, pi);
+    const double view_rad = random.uniform(-pi, pi);
     for (int n = 0; n < 40; ++n) {
       const double along_m = piece == 0 ? 0.0 : 0.02 * n;
       surfaces.add(from + along_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)),
@@ -36,7 +36,7 @@ TEST_CASE("The likelihood is that of the distance to the nearest surface that fa
           "[estimation]") {
   Random random(1);
   for (const double sigma_m : {0.1, 0.06}) {
-    const SurfaceMap<2> surfaces = random_surfaces(random);
+    const SurfaceMap<2> surfaces = random_lines(random);
     const double half_length_m = 0.5 * surfaces.params().cell_m;
     const Lattice<2> lattice(0.05, {-1.03, -1.21});
     LikelihoodGrid<2> grid;
@@ -45,7 +45,7 @@ TEST_CASE("The likelihood is that of the distance to the nearest surface that fa
     REQUIRE(grid.rows() == 53);
     int positive = 0;
     for (int layer = 0; layer < 8; ++layer) {
-      const Eigen::Vector2d direction(std::cos(layer * kPi / 4.0), std::sin(layer * kPi / 4.0));
+      const Eigen::Vector2d direction(std::cos(layer * pi / 4.0), std::sin(layer * pi / 4.0));
       for (int row = 0; row < grid.rows(); ++row) {
         for (int column = 0; column < grid.columns(); ++column) {
           const Eigen::Vector2d center = lattice.center_m({column, row});
@@ -79,13 +79,13 @@ TEST_CASE("A direction's layer is the nearest of eight", "[estimation]") {
     const int layer = LikelihoodGrid<2>::layer_of(angle_rad);
     REQUIRE(layer >= 0);
     REQUIRE(layer < 8);
-    REQUIRE(std::abs(std::remainder(angle_rad - layer * kPi / 4.0, 2.0 * kPi)) <= kPi / 8.0 + 1e-9);
+    REQUIRE(std::abs(std::remainder(angle_rad - layer * pi / 4.0, 2.0 * pi)) <= pi / 8.0 + 1e-9);
   }
 }
 
 TEST_CASE("A likelihood can be rebuilt smaller, and needs a width", "[estimation]") {
   Random random(3);
-  const SurfaceMap<2> surfaces = random_surfaces(random);
+  const SurfaceMap<2> surfaces = random_lines(random);
   LikelihoodGrid<2> used;
   LikelihoodGrid<2> fresh;
   used.rebuild(surfaces, Lattice<2>(0.05, {-1.5, -1.5}), 60, 60, 0.2);

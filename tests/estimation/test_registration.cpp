@@ -48,12 +48,6 @@ Pose2 moved(const Pose2& pose, double x_m, double y_m, double yaw_rad) {
   return {pose.x_m + x_m, pose.y_m + y_m, wrap_angle_rad(pose.yaw_rad + yaw_rad)};
 }
 
-double position_error_m(const Pose2& a, const Pose2& b) { return (a.position() - b.position()).norm(); }
-
-double heading_error_rad(const Pose2& a, const Pose2& b) {
-  return std::abs(angle_between_rad(a.yaw_rad, b.yaw_rad));
-}
-
 /// What register_scan says it minimises, halved, with the surfaces that the beams match at `matched_at`: a
 /// squared Mahalanobis distance and Cauchy's function of each beam's distance to its line or point.
 struct Cost {
@@ -185,8 +179,8 @@ TEST_CASE("Registration finds a robot's pose in a turned room to millimetres", "
       belief.pose = last.belief.pose;
     }
     CAPTURE(draw, last.associations, last.residual_rms_m);
-    REQUIRE(position_error_m(belief.pose, truth) < 0.001);
-    REQUIRE(heading_error_rad(belief.pose, truth) < 0.0005);
+    REQUIRE(room::position_error_m(belief.pose, truth) < 0.001);
+    REQUIRE(room::heading_error_rad(belief.pose, truth) < 0.0005);
     REQUIRE(last.associations > 350);
     REQUIRE(last.residual_rms_m < 0.01);
   }
@@ -234,7 +228,7 @@ TEST_CASE("Registration's covariance is the inverse of its cost's curvature", "[
   const RegistrationParams params;
   const Registration found = register_scan(prior, scan, surfaces, params);
   REQUIRE(found.associations == 9);
-  REQUIRE(position_error_m(found.belief.pose, room::kTurned) < 1e-6);
+  REQUIRE(room::position_error_m(found.belief.pose, room::kTurned) < 1e-6);
   const Cost cost(prior, scan, surfaces, params, room::kTurned);
   const Eigen::Matrix3d hessian = room::numerical_jacobian<3>(
       room::kTurned,
@@ -267,9 +261,9 @@ TEST_CASE("The less certain the surface, the less registration trusts it", "[est
     const Registration found = register_scan(
         prior, scan, surfaces, RegistrationParams{}, Certainty(p));
     REQUIRE(found.belief.covariance.trace() > trace);
-    REQUIRE(position_error_m(found.belief.pose, room::kTurned) > error_m);
+    REQUIRE(room::position_error_m(found.belief.pose, room::kTurned) > error_m);
     trace = found.belief.covariance.trace();
-    error_m = position_error_m(found.belief.pose, room::kTurned);
+    error_m = room::position_error_m(found.belief.pose, room::kTurned);
   }
   // One certainty for all surfaces acts as 1 / R_x of (10): 0.01 m^2 at p = 1, 2.2525 at p = 1/2.
   RegistrationParams strong;
@@ -321,7 +315,7 @@ TEST_CASE("Without associations the posterior is the prior", "[estimation]") {
   const auto require_prior = [&](const Registration& found) {
     REQUIRE(found.associations == 0);
     REQUIRE(found.residual_rms_m == 0.0);
-    REQUIRE(position_error_m(found.belief.pose, prior.pose) == 0.0);
+    REQUIRE(room::position_error_m(found.belief.pose, prior.pose) == 0.0);
     REQUIRE(found.belief.pose.yaw_rad == prior.pose.yaw_rad);
     REQUIRE(found.belief.covariance == prior.covariance);
   };
@@ -369,7 +363,7 @@ TEST_CASE("Registration takes a prior that is certain of a direction, or of all"
   const Scan<2> scan = room::scan_of(walls, room::kTurned);
   const Pose2 off = moved(room::kTurned, 0.02, 0.02, 0.0);
   const Registration exact = register_scan({off, Eigen::Matrix3d::Zero()}, scan, surfaces, {});
-  REQUIRE(position_error_m(exact.belief.pose, off) == 0.0);
+  REQUIRE(room::position_error_m(exact.belief.pose, off) == 0.0);
   REQUIRE(exact.belief.covariance == Eigen::Matrix3d::Zero());
   const Registration partly = register_scan({off, Eigen::Vector3d(0.01, 0.0, 0.01).asDiagonal()}, scan,
                                             surfaces, RegistrationParams{});

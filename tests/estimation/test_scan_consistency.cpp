@@ -12,13 +12,11 @@ using namespace incognita;
 
 namespace {
 
-const std::vector<room::Wall> kRoom = room::box(room::kTurned, 3.0, 2.0);
-
 /// The map of the room after a few scans from its middle.
 Map<> mapped_room() {
   Map<> map;
   for (int scan = 0; scan < 6; ++scan) {
-    map.update(room::scan_of(kRoom, room::kTurned, 720), room::kTurned, Eigen::Matrix3d::Zero());
+    map.update(room::scan_of(room::box(room::kTurned), room::kTurned, 720), room::kTurned, Eigen::Matrix3d::Zero());
   }
   return map;
 }
@@ -30,19 +28,19 @@ TEST_CASE("A scan agrees with the map at the place where it was taken", "[estima
   Random random(1);
   for (int draw = 0; draw < 50; ++draw) {
     const Pose2 pose = room::kTurned * Pose2{random.uniform(-2.0, 2.0), random.uniform(-1.0, 1.0), random.uniform(-3.0, 3.0)};
-    const ScanConsistency at_home = scan_consistency(map, room::scan_of(kRoom, pose), pose);
+    const ScanConsistency at_home = scan_consistency(map, room::scan_of(room::box(room::kTurned), pose), pose);
     CHECK(at_home.judged() > 40);
     CHECK(at_home.share() > 0.85);
     CHECK(at_home.holds({}));
     // A metre further across the room, walls are passed or missed.
     const Pose2 off = pose * Pose2{1.1 * std::cos(draw), 1.1 * std::sin(draw), 0.7};
-    const ScanConsistency elsewhere = scan_consistency(map, room::scan_of(kRoom, pose), off);
+    const ScanConsistency elsewhere = scan_consistency(map, room::scan_of(room::box(room::kTurned), pose), off);
     CHECK(elsewhere.share() < at_home.share() - 0.3);
   }
 }
 
 TEST_CASE("Only what the map knows is judged", "[estimation]") {
-  const Scan<2> scan = room::scan_of(kRoom, room::kTurned);
+  const Scan<2> scan = room::scan_of(room::box(room::kTurned), room::kTurned);
   const ScanConsistency unknown = scan_consistency(Map<>(), scan, room::kTurned);
   CHECK(unknown.judged() == 0);
   CHECK(unknown.share() == 1.0);
@@ -70,7 +68,7 @@ TEST_CASE("Beams through walls and ends in free space contradict", "[estimation]
   CHECK(within.contradicting == 60);
 
   // A person before the robot hides a few walls, and is no reason for doubt.
-  Scan<2> person = room::scan_of(kRoom, room::kTurned);
+  Scan<2> person = room::scan_of(room::box(room::kTurned), room::kTurned);
   for (std::size_t beam = 20; beam < 60; ++beam) person.set_range_m(beam, 0.8);
   CHECK(scan_consistency(map, person, room::kTurned).holds({}));
 }

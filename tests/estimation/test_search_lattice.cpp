@@ -14,7 +14,7 @@ using namespace incognita;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 }  // namespace
 
@@ -32,18 +32,18 @@ TEST_CASE("A lattice holds its centre and the multiples of its steps within the 
   REQUIRE(first.x_m == Approx(0.7));
   REQUIRE(first.y_m == Approx(1.9));
   REQUIRE(first.yaw_rad == Approx(2.79));
-  REQUIRE(lattice.pose({0, 0, 6}).yaw_rad == Approx(3.21 - 2.0 * kPi));
+  REQUIRE(lattice.pose({0, 0, 6}).yaw_rad == Approx(3.21 - 2.0 * pi));
   REQUIRE(lattice.turns_between(0, 6) == 6);
 }
 
 TEST_CASE("All around, turns divide the circle evenly and close it", "[estimation]") {
-  for (const double yaw_rad : {kPi, 10.0, 3.1}) {
-    for (const double step_rad : {0.1, 0.75, 2.0 * kPi / 64.0}) {
+  for (const double yaw_rad : {pi, 10.0, 3.1}) {
+    for (const double step_rad : {0.1, 0.75, 2.0 * pi / 64.0}) {
       if (yaw_rad == 3.1 && step_rad != 0.1) continue;  // the last turns leave a gap
       const SearchLattice lattice({0.0, 0.0, 0.4}, {0.0, 0.0, yaw_rad}, 0.05, step_rad);
       REQUIRE(lattice.is_circle);
       REQUIRE(lattice.yaw_step_rad <= step_rad + 1e-12);
-      REQUIRE(lattice.size.turn == static_cast<int>(std::ceil(2.0 * kPi / step_rad - 1e-9)));
+      REQUIRE(lattice.size.turn == static_cast<int>(std::ceil(2.0 * pi / step_rad - 1e-9)));
       REQUIRE(lattice.pose(lattice.half).yaw_rad == Approx(0.4));
       REQUIRE(lattice.turns_between(0, lattice.size.turn - 1) == 1);
       for (int turn = 0; turn < lattice.size.turn; ++turn) {

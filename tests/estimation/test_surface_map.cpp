@@ -14,7 +14,7 @@ using namespace incognita;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Eigen::Vector2d unit(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
@@ -64,14 +64,14 @@ TEST_CASE("Lines at any angle get their normal, against the view", "[estimation]
   Random random(2);
   for (int draw = 0; draw < 100; ++draw) {
     SurfaceMap<2> map;
-    const double angle_rad = random.uniform(-kPi, kPi);
+    const double angle_rad = random.uniform(-pi, pi);
     const Eigen::Vector2d through(random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
     // Seen at up to 60 degrees from the perpendicular, from either side.
     const double side = draw % 2 == 0 ? 1.0 : -1.0;
-    const Eigen::Vector2d towards = unit(angle_rad + side * 0.5 * kPi + random.uniform(-1.0, 1.0));
+    const Eigen::Vector2d towards = unit(angle_rad + side * 0.5 * pi + random.uniform(-1.0, 1.0));
     const bool noisy = draw % 4 >= 2;
     add_line(map, through, angle_rad, 1.0, towards, noisy ? &random : nullptr);
-    const Eigen::Vector2d normal = -side * unit(angle_rad + 0.5 * kPi);
+    const Eigen::Vector2d normal = -side * unit(angle_rad + 0.5 * pi);
 
     const auto surfaces = surfaces_near<2>(map, through);
     REQUIRE(surfaces.size() >= 3);
@@ -90,7 +90,7 @@ TEST_CASE("Lines at any angle get their normal, against the view", "[estimation]
 TEST_CASE("The two sides of a thin wall are kept apart", "[estimation]") {
   // 5 cm thick, at 0.3 rad, within the cells of 0.2 m.
   const double angle_rad = 0.3;
-  const Eigen::Vector2d left = unit(angle_rad + 0.5 * kPi);
+  const Eigen::Vector2d left = unit(angle_rad + 0.5 * pi);
   SurfaceMap<2> map(coarse_params());
   add_line(map, 0.025 * left, angle_rad, 1.0, -left);
   add_line(map, -0.025 * left, angle_rad, 1.0, left);
@@ -115,7 +115,7 @@ TEST_CASE("Beams that graze a wall from either end see the same side", "[estimat
   add_line(map, {0.0, 0.1}, 0.0, 0.5, unit(0.2));
   const std::size_t count = map.size();
   map.add({0.05, 0.1}, unit(0.05));
-  map.add({0.05, 0.1}, unit(kPi - 0.05));
+  map.add({0.05, 0.1}, unit(pi - 0.05));
   REQUIRE(map.size() == count);
   map.add({0.05, 0.1}, unit(-0.05));
   REQUIRE(map.size() == count + 1);
@@ -143,7 +143,7 @@ TEST_CASE("A cell holds three sides, among which all beams divide", "[estimation
   SurfaceMap<2> map(coarse_params());
   int added = 0;
   for (const double degrees : {0.0, 120.0, 240.0, 30.0, 100.0, 150.0, 200.0, 250.0, 330.0}) {
-    map.add({0.1, 0.1}, unit(degrees * kPi / 180.0));
+    map.add({0.1, 0.1}, unit(degrees * pi / 180.0));
     REQUIRE(map.size() == static_cast<std::size_t>(std::min(++added, 3)));
   }
   int count = 0;
@@ -210,7 +210,7 @@ TEST_CASE("Surfaces that are moved are found where they then lie, by piece, with
   Random random(5);
   SurfaceMap<2> map;
   const auto stays = [](int /*piece*/, const Eigen::Vector2d& /*at_m*/) { return Eigen::Vector2d(0.0, 0.0); };
-  const Eigen::Vector2d up = unit(0.5 * kPi);
+  const Eigen::Vector2d up = unit(0.5 * pi);
   for (int piece = 0; piece < 2; ++piece) {
     for (double x_m = 0.0; x_m < 2.0; x_m += 0.01) {
       map.add({x_m, 1.03 + 2.0 * piece + random.normal(0.0, 0.003)}, up, piece, stays);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "../simulation/plans.hpp"
@@ -30,6 +31,19 @@ inline Simulator office_simulator(double door_m, std::uint64_t seed, std::size_t
   SimulatorParams params;
   params.sensor.beams = circular_beams(beams, 10.0);
   return Simulator(World(two_rooms(door_m)), left_start(), params, seed);
+}
+
+/// Few beams for the gain and one thread.
+inline ExplorerParams quick_params() {
+  ExplorerParams params;
+  params.gain.beams = 30;
+  params.threads = 1;
+  return params;
+}
+
+/// A scan from which nothing is learned.
+inline Scan<2> blind_scan() {
+  return {circular_beams(4, 10.0), std::vector<double>(4, std::numeric_limits<double>::quiet_NaN())};
 }
 
 struct Mission {

@@ -14,20 +14,7 @@
 namespace incognita {
 namespace {
 
-using OfficeExplorer = Explorer<>;
 using Reasons = std::map<DecisionReason, int>;
-
-ExplorerParams quick_params() {
-  ExplorerParams params;
-  params.gain.beams = 30;
-  params.threads = 1;
-  return params;
-}
-
-const Scan<2>& blind_scan() {
-  static const Scan<2> scan(circular_beams(4, 10.0), std::vector<double>(4, std::numeric_limits<double>::quiet_NaN()));
-  return scan;
-}
 
 /// Drives as test::run_mission does and counts why it was decided. drives: whether the wheels turn, sees: whether the scanner sees.
 template <class ExplorerType>
@@ -42,7 +29,7 @@ Reasons reasons_of(ExplorerType& explorer, Simulator& simulator, double duration
     } else {
       explorer.move({}, 0.1);
     }
-    const Scan<2>& scan = sees ? simulator.scan() : blind_scan();
+    const Scan<2>& scan = sees ? simulator.scan() : test::blind_scan();
     explorer.observe(scan);
     if (explorer.decide()) ++reasons[explorer.decision().reason];
     command = explorer.command(scan);
@@ -54,9 +41,9 @@ Reasons reasons_of(ExplorerType& explorer, Simulator& simulator, double duration
 
 TEST_CASE("the first decision has no goal before it, and the last has ended") {
   Simulator simulator = test::office_simulator(0.9, 5);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.duration_max_s = 3.05;
-  OfficeExplorer explorer(params);
+  Explorer<> explorer(params);
   const Reasons reasons = reasons_of(explorer, simulator, 10.0);
   CHECK(reasons.at(DecisionReason::no_goal) == 1);
   CHECK(reasons.at(DecisionReason::ended) == 1);
@@ -71,7 +58,7 @@ TEST_CASE("a persistent robot decides where it has arrived, others before that w
   simulated.sensor.beams = circular_beams(180, 3.0);
   simulated.odometry = {0.0, 0.0};
   Simulator simulator(World(test::two_rooms(0.9)), test::left_start(), simulated, 1);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.gain.range_max_m = 3.0;
   params.information = FrontierInformation::size;
   params.strategy = strategy;
@@ -84,23 +71,23 @@ TEST_CASE("a persistent robot decides where it has arrived, others before that w
 }
 
 TEST_CASE("a goal that is not reached in time is overdue, one that tells nothing was gone to in vain") {
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.position_sigma_max_m = 100.0;  // it learns nothing for minutes
   Simulator simulator = test::office_simulator(0.9, 9);
-  OfficeExplorer explorer(params);
+  Explorer<> explorer(params);
   reasons_of(explorer, simulator, 2.5);
   REQUIRE(explorer.goal());
-  OfficeExplorer standing = explorer;
+  Explorer<> standing = explorer;
   Simulator still = simulator;
   CHECK(reasons_of(standing, still, 60.0, false, false).contains(DecisionReason::overdue));
   CHECK(reasons_of(explorer, simulator, 60.0, true, false).contains(DecisionReason::in_vain));
 }
 
 TEST_CASE("a pause puts the way in doubt, and a wall that appears closes it") {
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.strategy = Strategy::persistent;
   Simulator simulator = test::office_simulator(0.9, 10);
-  OfficeExplorer explorer(params);
+  Explorer<> explorer(params);
   reasons_of(explorer, simulator, 2.5);
   REQUIRE(explorer.goal());
   explorer.pause();
@@ -130,7 +117,7 @@ TEST_CASE("a pause puts the way in doubt, and a wall that appears closes it") {
 
 TEST_CASE("the way back is decided on for want of a goal, and again when it is in doubt") {
   Simulator simulator = test::office_simulator(0.9, 12);
-  OfficeExplorer explorer(quick_params());
+  Explorer<> explorer(test::quick_params());
   reasons_of(explorer, simulator, 12.0);
   explorer.return_to_start();
   explorer.observe(simulator.scan());

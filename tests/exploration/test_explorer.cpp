@@ -24,13 +24,6 @@ using Measure = std::function<double(double)>;
 using OfficeExplorer = Explorer<Map<TBayes>, Measure, DvlEkf>;
 using BlindExplorer = Explorer<Map<TBayes>, Measure, DeadReckoning>;
 
-ExplorerParams quick_params() {
-  ExplorerParams params;
-  params.gain.beams = 30;
-  params.threads = 1;
-  return params;
-}
-
 DeadReckoning noisy_reckoning(double position_m_per_sqrt_s) {
   DeadReckoning::Params params;
   params.noise = {position_m_per_sqrt_s, 0.05};
@@ -45,11 +38,6 @@ double explored_fraction(const OfficeExplorer& explorer, const Simulator& simula
   });
 }
 
-/// A scan from which nothing is learned.
-Scan<2> blind_scan() {
-  return {circular_beams(4, 10.0), std::vector<double>(4, std::numeric_limits<double>::quiet_NaN())};
-}
-
 bool same(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Pose2& p, const Pose2& q) {
     return p.x_m == q.x_m && p.y_m == q.y_m && p.yaw_rad == q.yaw_rad;
@@ -61,7 +49,7 @@ bool same(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
 TEST_CASE("two rooms are explored through their door, without a collision") {
   const auto seed = GENERATE(1U, 2U);
   Simulator simulator = test::office_simulator(0.9, seed);
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 120.0);
   REQUIRE(explorer.stopped());
   const bool is_done = *explorer.stopped() == StopReason::complete || *explorer.stopped() == StopReason::nothing_informative;
@@ -93,7 +81,7 @@ TEST_CASE("every strategy, measure of information and cost of navigation explore
                                  Choice{Strategy::persistent, FrontierInformation::entropy, NavigationCost::uniform},
                                  Choice{Strategy::online, FrontierInformation::size, NavigationCost::euclidean});
   Simulator simulator = test::office_simulator(0.9, 5);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.strategy = choice.strategy;
   params.information = choice.information;
   params.navigation = choice.navigation;
@@ -108,7 +96,7 @@ TEST_CASE("every strategy, measure of information and cost of navigation explore
 
 TEST_CASE("candidates are ranked by what they tell for what they cost") {
   Simulator simulator = test::office_simulator(0.9, 6);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.information = FrontierInformation::size;
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 4.0);
@@ -125,7 +113,7 @@ TEST_CASE("candidates are ranked by what they tell for what they cost") {
 
 TEST_CASE("the order of magnitude of a gain counts from the least that is worth going for") {
   Simulator simulator = test::office_simulator(0.9, 6);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.information = FrontierInformation::log_big;
   params.gain_min_cells = GENERATE(0.0, 7.0);
   OfficeExplorer explorer(params, Map<TBayes>{}, Shannon{});
@@ -139,7 +127,7 @@ TEST_CASE("the order of magnitude of a gain counts from the least that is worth 
 
 TEST_CASE("what lies behind a door too narrow for the robot is looked at through it, and not gone to") {
   Simulator simulator = test::office_simulator(0.3, 3);
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 200.0);
   REQUIRE(explorer.stopped());
   CHECK(to_string(*explorer.stopped()) == "nothing_informative");
@@ -158,7 +146,7 @@ TEST_CASE("doors that the belief may have drawn too narrow are tried, and shut w
   SimulatorParams simulation;
   simulation.robot.radius_m = 0.21;
   simulation.odometry = {0.0, 0.0};
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.travel.robot_radius_m = 0.21;
   params.guard.robot_radius_m = 0.21;
   const std::uint64_t seed = GENERATE(1U, 2U, 3U, 4U);
@@ -180,7 +168,7 @@ TEST_CASE("a robot that starts in a corner, nearer to the walls than it plans to
   simulation.odometry = {0.0, 0.0};
   simulation.sensor.beams = circular_beams(360, 1.5);
   Simulator simulator(World(test::two_rooms(0.9)), {0.255, 0.255, yaw_rad}, simulation, 1);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.strategy = strategy;
   params.information = FrontierInformation::size;
   params.gain.range_max_m = 1.5;
@@ -196,7 +184,7 @@ TEST_CASE("a robot that starts in a corner, nearer to the walls than it plans to
 
 TEST_CASE("a robot whose pose is too uncertain is lost") {
   Simulator simulator = test::office_simulator(0.9, 4);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.position_sigma_max_m = 0.3;
   BlindExplorer explorer(params, Map<TBayes>{}, Behavioral{}, noisy_reckoning(0.3));
   test::run_mission(explorer, simulator, 30.0);
@@ -208,7 +196,7 @@ TEST_CASE("a robot whose pose is too uncertain is lost") {
 }
 
 TEST_CASE("odometry that is no motion is refused, and changes nothing") {
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Behavioral{});
   explorer.move({0.1, 0.0, 0.0}, 0.1);
   const PoseBelief before = explorer.belief();
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -221,7 +209,7 @@ TEST_CASE("odometry that is no motion is refused, and changes nothing") {
 }
 
 TEST_CASE("candidates that tell too little do not hide a better one further away") {
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.candidates_max = GENERATE(1, 2, 40);
   params.gain_min_cells = 2000.0;  // only the way into the other room promises as much
   Simulator simulator = test::office_simulator(0.9, 1);
@@ -238,14 +226,14 @@ TEST_CASE("candidates that tell too little do not hide a better one further away
 TEST_CASE("the bar for a candidate scales with the entropy") {
   // Half of Tsallis' entropy with q = 1000 is a thousandth of Shannon's.
   Simulator simulator = test::office_simulator(0.9, 1);
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Tsallis{1000.0});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Tsallis{1000.0});
   test::run_mission(explorer, simulator, 120.0);
   CHECK(explored_fraction(explorer, simulator) > 0.9);
 }
 
 TEST_CASE("an exploration ends when its time is over") {
   Simulator simulator = test::office_simulator(0.9, 5);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.duration_max_s = 3.05;
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 30.0);
@@ -255,20 +243,20 @@ TEST_CASE("an exploration ends when its time is over") {
 }
 
 TEST_CASE("nothing is decided before the first scan") {
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Behavioral{});
   CHECK_FALSE(explorer.decide());
   explorer.move(Pose2{0.1, 0.0, 0.0}, 0.1);
   CHECK_FALSE(explorer.decide());
   CHECK_FALSE(explorer.goal());
   CHECK_FALSE(explorer.stopped());
-  CHECK(explorer.command(blind_scan()).speed_m_per_s == 0.0);
+  CHECK(explorer.command(test::blind_scan()).speed_m_per_s == 0.0);
 }
 
 TEST_CASE("a map from before may be larger than what the scans have reached") {
   Map<TBayes> known;
   const Scan<2> open(circular_beams(360, 10.0));
   for (const double x_m : {0.0, 8.0, 16.0}) known.update(open, {x_m, 0.0, 0.0}, Eigen::Matrix3d::Identity() * 1e-4);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.gain.range_max_m = 20.0;
   params.gain.beams = 8;
   params.gain.pose_spacing_m = 5.0;
@@ -289,7 +277,7 @@ TEST_CASE("a map from before may be larger than what the scans have reached") {
 }
 
 TEST_CASE("while the map stays the same no goal is taken up twice") {
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.position_sigma_max_m = 100.0;  // the robot stands and learns nothing for minutes
   Simulator simulator = test::office_simulator(0.9, 6);
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
@@ -299,7 +287,7 @@ TEST_CASE("while the map stays the same no goal is taken up twice") {
   REQUIRE(decided_s == explorer.time_s());
 
   std::vector<Eigen::Vector2d> frontiers_m{explorer.decision().chosen()->frontier_m};
-  const Scan<2> nothing = blind_scan();
+  const Scan<2> nothing = test::blind_scan();
   double kept_until_s = 0.0;
   while (!explorer.stopped() && explorer.time_s() < 400.0) {
     explorer.move(Pose2{}, 0.1);
@@ -320,7 +308,7 @@ TEST_CASE("while the map stays the same no goal is taken up twice") {
 }
 
 TEST_CASE("a robot that drives and learns nothing keeps its goal until it is there, also when it plans online by straight lines") {
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.strategy = Strategy::online;
   params.information = FrontierInformation::size;
   params.navigation = GENERATE(NavigationCost::uniform, NavigationCost::euclidean, NavigationCost::geodesic);
@@ -329,7 +317,7 @@ TEST_CASE("a robot that drives and learns nothing keeps its goal until it is the
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 1.9);
   REQUIRE(explorer.goal());
-  const Scan<2> nothing = blind_scan();
+  const Scan<2> nothing = test::blind_scan();
   std::vector<Eigen::Vector2d> frontiers_m;
   std::size_t arrivals = 0;
   Twist2 command;
@@ -353,7 +341,7 @@ TEST_CASE("a robot that drives and learns nothing keeps its goal until it is the
 
 TEST_CASE("a pause stands still and decides nothing, and start goes on") {
   Simulator simulator = test::office_simulator(0.9, 10);
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Behavioral{});
   explorer.pause();
   CHECK(explorer.is_paused());
   test::run_mission(explorer, simulator, 5.0);
@@ -385,7 +373,7 @@ TEST_CASE("a pause stands still and decides nothing, and start goes on") {
 
 TEST_CASE("an exploration is stopped, and started again where it was") {
   Simulator simulator = test::office_simulator(0.9, 11);
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 4.0);
   REQUIRE(explorer.goal());
   explorer.pause();
@@ -410,7 +398,7 @@ TEST_CASE("an exploration is stopped, and started again where it was") {
 TEST_CASE("a robot returns to its start on request, from the way or from the end") {
   const bool from_the_end = GENERATE(false, true);
   Simulator simulator = test::office_simulator(0.9, 12);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   if (!from_the_end) params.duration_max_s = 12.0;  // does not count on the way back
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 200.0);
@@ -436,7 +424,7 @@ TEST_CASE("a robot returns to its start on request, from the way or from the end
 
 TEST_CASE("a robot that is driven by other means arrives all the same") {
   Simulator simulator = test::office_simulator(0.9, 12);
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 6.0);
   explorer.return_to_start();
   while (!explorer.stopped() && simulator.time_s() < 60.0) {
@@ -462,7 +450,7 @@ TEST_CASE("a robot returns to a start that the belief has hardly room for, with 
   Simulator simulator(World(test::two_rooms(2.5)), {0.31, 0.33, 0.7}, simulation, 1);
   MapParams cells;
   cells.resolution_m = resolution_m;
-  Explorer<Map<TBayes>, Behavioral, DeadReckoning> explorer(quick_params(), Map<TBayes>(cells), Behavioral{},
+  Explorer<Map<TBayes>, Behavioral, DeadReckoning> explorer(test::quick_params(), Map<TBayes>(cells), Behavioral{},
                                                             DeadReckoning({MotionNoise{}, PoseBelief{}}));
   test::run_mission(explorer, simulator, 15.0);
   CAPTURE(resolution_m);
@@ -475,7 +463,7 @@ TEST_CASE("a robot returns to a start that the belief has hardly room for, with 
 
 TEST_CASE("a robot carried away in a pause has time to find out where it is") {
   Simulator simulator = test::office_simulator(0.9, 10);
-  OfficeExplorer explorer(quick_params(), Map<TBayes>{}, Behavioral{});
+  OfficeExplorer explorer(test::quick_params(), Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 4.0);
   explorer.pause();
   explorer.move(Pose2{}, 60.0);  // without scans
@@ -487,7 +475,7 @@ TEST_CASE("a robot carried away in a pause has time to find out where it is") {
 
 TEST_CASE("a robot outside of its area does not say that it is explored") {
   Simulator simulator = test::office_simulator(0.9, 14);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.area.bounds = {{20.0, 20.0}, {30.0, 20.0}, {30.0, 30.0}};
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 20.0);
@@ -496,11 +484,11 @@ TEST_CASE("a robot outside of its area does not say that it is explored") {
 
 TEST_CASE("a robot that cannot get back says so, and may explore again") {
   Simulator simulator = test::office_simulator(0.9, 13);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
   test::run_mission(explorer, simulator, 30.0);
   explorer.return_to_start();
-  const Scan<2> nothing = blind_scan();
+  const Scan<2> nothing = test::blind_scan();
   double began_s = explorer.time_s();
   while (!explorer.stopped() && explorer.time_s() < began_s + 100.0) {
     explorer.move(Pose2{}, 0.1);  // its wheels are blocked
@@ -528,7 +516,7 @@ TEST_CASE("no path, no goal and no frontier leaves the allowed area, and the exp
   if (which == 1) area.no_go = {bar};
   if (which == 2) area.no_go = {before_the_door};
   Simulator simulator = test::office_simulator(0.9, 14);
-  ExplorerParams params = quick_params();
+  ExplorerParams params = test::quick_params();
   params.area = area.transformed(simulator.T_start_world());
   OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{});
   Twist2 command;
@@ -564,7 +552,7 @@ TEST_CASE("no path, no goal and no frontier leaves the allowed area, and the exp
 TEST_CASE("behavioral entropy with alpha 1 decides as Shannon's") {
   const auto run = [](const Measure& measure) {
     Simulator simulator = test::office_simulator(0.9, 7);
-    ExplorerParams params = quick_params();
+    ExplorerParams params = test::quick_params();
     params.strategy = Strategy::online;  // decides often
     OfficeExplorer explorer(params, Map<TBayes>{}, measure);
     return test::run_mission(explorer, simulator, 15.0);
@@ -583,7 +571,7 @@ TEST_CASE("behavioral entropy with alpha 1 decides as Shannon's") {
 TEST_CASE("the trajectory is the same to the bit for any number of threads") {
   const auto run = [](int threads) {
     Simulator simulator = test::office_simulator(0.9, 8);
-    ExplorerParams params = quick_params();
+    ExplorerParams params = test::quick_params();
     params.threads = threads;
     params.strategy = Strategy::online;  // decides often
     OfficeExplorer explorer(params, Map<TBayes>{}, Behavioral{0.5});

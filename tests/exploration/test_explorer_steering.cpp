@@ -14,17 +14,8 @@ using namespace incognita;
 
 namespace {
 
-using OfficeExplorer = Explorer<Map<TBayes>, Behavioral>;
-
-ExplorerParams quick_params() {
-  ExplorerParams params;
-  params.gain.beams = 30;
-  params.threads = 1;
-  return params;
-}
-
 /// Drives until the explorer has a goal.
-void find_goal(OfficeExplorer& explorer, Simulator& simulator) {
+void find_goal(Explorer<>& explorer, Simulator& simulator) {
   test::run_mission(explorer, simulator, 1.9);
   REQUIRE(explorer.goal());
 }
@@ -33,7 +24,7 @@ void find_goal(OfficeExplorer& explorer, Simulator& simulator) {
 
 TEST_CASE("another controller steers along the chosen path, under the guard") {
   Simulator simulator = test::office_simulator(0.9, 6);
-  OfficeExplorer explorer(quick_params());
+  Explorer<> explorer(test::quick_params());
   find_goal(explorer, simulator);
   double progress_m = 0.0;
   int asked = 0;
@@ -73,7 +64,7 @@ TEST_CASE("another controller steers along the chosen path, under the guard") {
 
 TEST_CASE("a twist that is none is refused, and in a pause nobody is asked") {
   Simulator simulator = test::office_simulator(0.9, 6);
-  OfficeExplorer explorer(quick_params());
+  Explorer<> explorer(test::quick_params());
   find_goal(explorer, simulator);
   const auto wanting = [&](const Twist2& twist) {
     return explorer.command(simulator.scan(), [&](const Pose2&, const Scan<2>&, const PathFollower&) { return twist; });
@@ -89,7 +80,7 @@ TEST_CASE("a twist that is none is refused, and in a pause nobody is asked") {
 
 TEST_CASE("two rooms are explored by MPPI without touching a wall") {
   Simulator simulator = test::office_simulator(0.9, 4);
-  OfficeExplorer explorer(quick_params());
+  Explorer<> explorer(test::quick_params());
   MppiParams params;
   params.samples = 128;
   params.robot_radius_m = explorer.params().guard.robot_radius_m + explorer.params().guard.creep_margin_m;

@@ -13,7 +13,7 @@ using namespace incognita;
 
 namespace {
 
-Grid<std::uint8_t, 2> random_grid(Random& random, std::uint8_t fill, double share) {
+Grid<std::uint8_t, 2> random_image(Random& random, std::uint8_t fill, double share) {
   const int width = 1 + static_cast<int>(random.index(40));
   const int height = 1 + static_cast<int>(random.index(40));
   const Index<2> lower(static_cast<int>(random.index(20)) - 10, static_cast<int>(random.index(20)) - 10);
@@ -44,7 +44,7 @@ double slow_distance(const Grid<std::uint8_t, 2>& grid, const Index<2>& cell, in
 TEST_CASE("Near distances are those to the nearest source, within and outside of the box", "[grid]") {
   Random random(1);
   for (int draw = 0; draw < 300; ++draw) {
-    const auto grid = random_grid(random, static_cast<std::uint8_t>(draw % 2), draw % 3 == 0 ? 0.002 : 0.05);
+    const auto grid = random_image(random, static_cast<std::uint8_t>(draw % 2), draw % 3 == 0 ? 0.002 : 0.05);
     const int reach = static_cast<int>(random.index(14));
     const CellShape shape = draw % 5 < 3 ? CellShape::centers : CellShape::squares;
     const double farthest = shape == CellShape::centers ? reach : std::max(0.0, reach - 0.5);
@@ -64,7 +64,7 @@ TEST_CASE("Near distances are those to the nearest source, within and outside of
 TEST_CASE("Near distances in metres are the exact ones up to their bound", "[grid]") {
   Random random(2);
   for (int draw = 0; draw < 100; ++draw) {
-    const auto grid = random_grid(random, 0, 0.01);
+    const auto grid = random_image(random, 0, 0.01);
     const double distance_max_m = random.uniform(0.01, 3.0);
     const Grid<float, 2> near = near_distance_m(grid, distance_max_m, is_one);
     const Grid<float, 2> exact = distance_transform_m(grid, is_one);

@@ -47,7 +47,7 @@ void check_round_trip(Random& random) {
 
 /// What `take` says of these bytes.
 template <class Take>
-std::string refused(std::string_view bytes, Take&& take) {
+std::string bytes_refusal(std::string_view bytes, Take&& take) {
   return refusal([&] {
     ByteReader reader(bytes, "file", 100);
     static_cast<void>(take(reader));
@@ -133,21 +133,21 @@ TEST_CASE("varints are as short as their numbers") {
 
 TEST_CASE("what is no such number is refused by file, byte and value") {
   using std::string;
-  CHECK(refused("abc", [](ByteReader& r) { return r.number<std::uint32_t>(); }) ==
+  CHECK(bytes_refusal("abc", [](ByteReader& r) { return r.number<std::uint32_t>(); }) ==
         "file: is damaged at byte 100: only 3 bytes where there must be 4");
-  CHECK_THAT(refused("ab", [](ByteReader& r) { return r.raw(1).size() + r.number<std::uint64_t>(); }), Contains("at byte 101: only 1 bytes"));
-  CHECK_THAT(refused("\x80\x80", [](ByteReader& r) { return r.varint(); }), Contains("at byte 102: only 0 bytes"));
-  CHECK_THAT(refused(string(9, '\xFF') + "\002", [](ByteReader& r) { return r.varint(); }), Contains("more than 64 bits"));
-  CHECK_THAT(refused(string(12, '\x80'), [](ByteReader& r) { return r.varint(); }), Contains("more than 64 bits"));
-  CHECK_THAT(refused("\x0B", [](ByteReader& r) { return r.small_varint(5); }), Contains("a number of -6, which must be from -5 to 5"));
-  CHECK_THAT(refused("\x0C", [](ByteReader& r) { return r.small_varint(5); }), Contains("a number of 6"));
-  CHECK_THAT(refused("\x80\x80\x80\x80\x10", [](ByteReader& r) { return r.small_varint(); }), Contains("a number of 2147483648"));
-  CHECK_THAT(refused("\003abcdefgh", [](ByteReader& r) { return r.count(3); }), Contains("a count of 3, each of 3 bytes or more, though only 8 bytes"));
-  CHECK_THAT(refused("\003ab", [](ByteReader& r) { return r.text(); }), Contains("a count of 3") && Contains("only 2 bytes"));
-  CHECK_THAT(refused("\002", [](ByteReader& r) { return r.flag(); }), Contains("a flag of 2, which must be 0 or 1"));
-  CHECK_THAT(refused(string(8, '\xFF'), [](ByteReader& r) { return r.finite<double>("a height"); }), Contains("a height that is not finite"));
-  CHECK_THAT(refused("ab", [](ByteReader& r) { return r.require_end(), 0; }), Contains("2 bytes too many"));
-  CHECK_THAT(refused("abc", [](ByteReader& r) { return r.part(4); }), Contains("only 3 bytes where there must be 4"));
+  CHECK_THAT(bytes_refusal("ab", [](ByteReader& r) { return r.raw(1).size() + r.number<std::uint64_t>(); }), Contains("at byte 101: only 1 bytes"));
+  CHECK_THAT(bytes_refusal("\x80\x80", [](ByteReader& r) { return r.varint(); }), Contains("at byte 102: only 0 bytes"));
+  CHECK_THAT(bytes_refusal(string(9, '\xFF') + "\002", [](ByteReader& r) { return r.varint(); }), Contains("more than 64 bits"));
+  CHECK_THAT(bytes_refusal(string(12, '\x80'), [](ByteReader& r) { return r.varint(); }), Contains("more than 64 bits"));
+  CHECK_THAT(bytes_refusal("\x0B", [](ByteReader& r) { return r.small_varint(5); }), Contains("a number of -6, which must be from -5 to 5"));
+  CHECK_THAT(bytes_refusal("\x0C", [](ByteReader& r) { return r.small_varint(5); }), Contains("a number of 6"));
+  CHECK_THAT(bytes_refusal("\x80\x80\x80\x80\x10", [](ByteReader& r) { return r.small_varint(); }), Contains("a number of 2147483648"));
+  CHECK_THAT(bytes_refusal("\003abcdefgh", [](ByteReader& r) { return r.count(3); }), Contains("a count of 3, each of 3 bytes or more, though only 8 bytes"));
+  CHECK_THAT(bytes_refusal("\003ab", [](ByteReader& r) { return r.text(); }), Contains("a count of 3") && Contains("only 2 bytes"));
+  CHECK_THAT(bytes_refusal("\002", [](ByteReader& r) { return r.flag(); }), Contains("a flag of 2, which must be 0 or 1"));
+  CHECK_THAT(bytes_refusal(string(8, '\xFF'), [](ByteReader& r) { return r.finite<double>("a height"); }), Contains("a height that is not finite"));
+  CHECK_THAT(bytes_refusal("ab", [](ByteReader& r) { return r.require_end(), 0; }), Contains("2 bytes too many"));
+  CHECK_THAT(bytes_refusal("abc", [](ByteReader& r) { return r.part(4); }), Contains("only 3 bytes where there must be 4"));
 }
 
 TEST_CASE("limits themselves are taken") {

@@ -21,10 +21,10 @@ RobotLogParams any_beams() {
   return params;
 }
 
-RobotLog parse(const std::string& text) { return parse_carmen_log(text, "a.log", any_beams()); }
+RobotLog parse_log(const std::string& text) { return parse_carmen_log(text, "a.log", any_beams()); }
 
-std::string parse_refusal(const std::string& text) {
-  return refusal([&] { return parse(text); });
+std::string log_refusal(const std::string& text) {
+  return refusal([&] { return parse_log(text); });
 }
 
 const std::string good_line = "FLASER 3 1.5 2 2.5 0.3 0.2 0.1 1 2 0.5 976.25 pippo 0.3\n";
@@ -37,7 +37,7 @@ const std::string robot_laser_line =
 
 TEST_CASE("CARMEN: FLASER lines are read, others skipped") {
   const RobotLog log =
-      parse("# message formats\nPARAM robot_length 1\nODOM 9 9 9 0 0 0 1 pippo 0\n\n" + good_line +
+      parse_log("# message formats\nPARAM robot_length 1\nODOM 9 9 9 0 0 0 1 pippo 0\n\n" + good_line +
             "RLASER 1 2\n  FLASER 3 1 nan inf 0.3 0.2 0.1 1 2 4 970 pippo 0.2 \r\n");
   REQUIRE(log.scans.size() == 2);
   CHECK(log.scans[0].time_s == 970.0);
@@ -49,7 +49,7 @@ TEST_CASE("CARMEN: FLASER lines are read, others skipped") {
   CHECK(log.scans[0].T_odom_robot.yaw_rad == Approx(4.0 - 2.0 * std::numbers::pi));
   CHECK(Scan<2>(log.beams, log.scans[0].ranges_m).reading(1) == Reading::invalid);
   // The words after the time are not needed.
-  CHECK(parse("FLASER 1 2 0 0 0 0 0 0 5").scans[0].time_s == 5.0);
+  CHECK(parse_log("FLASER 1 2 0 0 0 0 0 0 5").scans[0].time_s == 5.0);
 }
 
 TEST_CASE("CARMEN: the number of readings says where FLASER looks") {
@@ -91,12 +91,12 @@ TEST_CASE("CARMEN: the laser's place is known when all lines agree") {
     agreeing += line(pose, pose * T_robot_laser);
     corrected += line(pose, Pose2{0, 0, 0.01 * pose.x_m} * pose);
   }
-  const Pose2 found = parse(agreeing).T_robot_laser;
+  const Pose2 found = parse_log(agreeing).T_robot_laser;
   CHECK(found.x_m == Approx(T_robot_laser.x_m));
   CHECK(found.y_m == Approx(T_robot_laser.y_m));
   CHECK(found.yaw_rad == Approx(T_robot_laser.yaw_rad));
-  CHECK(parse(corrected).T_robot_laser.x_m == 0.0);
-  CHECK(parse(line({0, 0, 0}, {50, 0, 0})).T_robot_laser.x_m == 0.0);  // a correction, not a mounting
+  CHECK(parse_log(corrected).T_robot_laser.x_m == 0.0);
+  CHECK(parse_log(line({0, 0, 0}, {50, 0, 0})).T_robot_laser.x_m == 0.0);  // a correction, not a mounting
   RobotLogParams params = any_beams();
   params.T_robot_laser = Pose2{1, 0, 0};
   CHECK(parse_carmen_log(agreeing, "a.log", params).T_robot_laser.x_m == 1.0);
@@ -119,12 +119,12 @@ TEST_CASE("CARMEN: a bad line is refused with its number") {
            {"FLASER 3 1 2 3 0 0 0 0 0 0 now", "the time is \"now\""},
            {"FLASER 2 1 2 0 0 0 0 0 0 5", "has 2 readings, but must have 3"}}) {
     CAPTURE(bad);
-    CHECK_THAT(parse_refusal("# first\n" + good_line + bad + "\n" + good_line),
+    CHECK_THAT(log_refusal("# first\n" + good_line + bad + "\n" + good_line),
                Contains("a.log: line 3 (FLASER): ") && Contains(what));
   }
-  CHECK_THAT(parse_refusal("ROBOTLASER1 0 1 2 3 4 5 6 1 2 7 8"), Contains("line 1 (ROBOTLASER1)"));
-  CHECK_THAT(parse_refusal(""), Contains("holds no FLASER or ROBOTLASER1 message"));
-  CHECK_THAT(parse_refusal(std::string("\0\n\0", 3)), Contains("holds no"));
+  CHECK_THAT(log_refusal("ROBOTLASER1 0 1 2 3 4 5 6 1 2 7 8"), Contains("line 1 (ROBOTLASER1)"));
+  CHECK_THAT(log_refusal(""), Contains("holds no FLASER or ROBOTLASER1 message"));
+  CHECK_THAT(log_refusal(std::string("\0\n\0", 3)), Contains("holds no"));
   CHECK_THAT(refusal([] { return read_carmen_log("missing.log"); }), Contains("no such file"));
 }
 
@@ -133,8 +133,8 @@ TEST_CASE("CARMEN: files cut off or spoilt are read or refused") {
     const std::string good = line + line + line;
     std::size_t refused = 0;
     for (std::size_t size = 0; size < good.size(); ++size)
-      refused += !parse_refusal(good.substr(0, size)).empty();
+      refused += !log_refusal(good.substr(0, size)).empty();
     CHECK(refused > good.size() / 3);
-    CHECK(io_test::refused_when_spoilt(good, 5000, parse) > 1000);
+    CHECK(io_test::refused_when_spoilt(good, 5000, parse_log) > 1000);
   }
 }

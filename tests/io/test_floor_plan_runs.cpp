@@ -26,7 +26,7 @@ std::string with_box(const std::string& box_and_runs) {
   return bytes.bytes() + box_and_runs;
 }
 
-std::string refused(const std::string& bytes) {
+std::string runs_refusal(const std::string& bytes) {
   return refusal([&] { return taken(bytes); });
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("floor plans come back, whatever they are of") {
     REQUIRE(again.resolution_m() == plan.resolution_m());
     REQUIRE(again.lattice().origin_m() == plan.lattice().origin_m());
     REQUIRE(again.value({-5000, 0}) == FloorCell::solid);
-    for (std::size_t size = 0; size < bytes.size(); ++size) REQUIRE(refused(bytes.substr(0, size)) != "");
+    for (std::size_t size = 0; size < bytes.size(); ++size) REQUIRE(runs_refusal(bytes.substr(0, size)) != "");
   }
 }
 
@@ -66,13 +66,13 @@ TEST_CASE("a plan of straight walls takes a few bytes a row") {
 TEST_CASE("no floor plan is larger than its bytes allow") {
   using std::string;
   CHECK(taken(with_box(string("\0\0\x40\x01\x3F", 5))).size() == 64);
-  CHECK_THAT(refused(with_box(string("\0\0\x41\x01\x3F", 5))), Contains("a floor plan of 65 cells, though only 1 bytes follow"));
-  CHECK_THAT(refused(with_box(string("\0\0\x40\x01\x3E", 5))), Contains("only 0 bytes"));
-  CHECK_THAT(refused(with_box(string("\0\0\x10\x01\x1F", 5))), Contains("a run of 32 cells beyond the end"));
-  CHECK_THAT(refused(with_box(string("\0\0\x10\x01\xCF", 5))), Contains("a cell of no known kind"));
-  CHECK_THAT(refused(with_box(string("\0\0\xFF\xFF\xFF\xFF\x7F\x01\x3F", 9))), Contains("cells along an axis, which must be at most 268435456"));
-  CHECK_THAT(refused(with_box(string("\xFF\xFF\xFF\xFF\x0F\0\x01\x01\x00", 9))), Contains("a number of -2147483648"));
+  CHECK_THAT(runs_refusal(with_box(string("\0\0\x41\x01\x3F", 5))), Contains("a floor plan of 65 cells, though only 1 bytes follow"));
+  CHECK_THAT(runs_refusal(with_box(string("\0\0\x40\x01\x3E", 5))), Contains("only 0 bytes"));
+  CHECK_THAT(runs_refusal(with_box(string("\0\0\x10\x01\x1F", 5))), Contains("a run of 32 cells beyond the end"));
+  CHECK_THAT(runs_refusal(with_box(string("\0\0\x10\x01\xCF", 5))), Contains("a cell of no known kind"));
+  CHECK_THAT(runs_refusal(with_box(string("\0\0\xFF\xFF\xFF\xFF\x7F\x01\x3F", 9))), Contains("cells along an axis, which must be at most 268435456"));
+  CHECK_THAT(runs_refusal(with_box(string("\xFF\xFF\xFF\xFF\x0F\0\x01\x01\x00", 9))), Contains("a number of -2147483648"));
   ByteWriter flat;
   for (const double value : {0.0, 0.0, 0.0}) flat.number(value);
-  CHECK_THAT(refused(flat.bytes() + string("\0\0\0\0", 4)), Contains("a resolution of 0.000000, which must be > 0"));
+  CHECK_THAT(runs_refusal(flat.bytes() + string("\0\0\0\0", 4)), Contains("a resolution of 0.000000, which must be > 0"));
 }

@@ -20,10 +20,10 @@ RobotLogParams three_beams() {
   return params;
 }
 
-RobotLog parse(const std::string& text) { return parse_intel_json(text, "a.json", three_beams()); }
+RobotLog parse_intel(const std::string& text) { return parse_intel_json(text, "a.json", three_beams()); }
 
-std::string parse_refusal(const std::string& text) {
-  return refusal([&] { return parse(text); });
+std::string intel_refusal(const std::string& text) {
+  return refusal([&] { return parse_intel(text); });
 }
 
 /// A log of one scan with these fields.
@@ -34,7 +34,7 @@ const std::string good_fields = R"("range": [1, 2.5, 3], "x": 1, "y": -2, "theta
 }  // namespace
 
 TEST_CASE("Intel JSON: scans, poses and times are read") {
-  const RobotLog log = parse(R"({"version": 2, "map": {
+  const RobotLog log = parse_intel(R"({"version": 2, "map": {
     "976052890.244111": {"range": [1, 2.5, 3e0], "x": 1.25, "y": -2, "theta": 3.5},
     "976052889.5": {"theta": 0, "y": 0, "x": 0, "range": [4, null, 6], "note": "a", "more": [1, [2, null]]}}})");
   REQUIRE(log.scans.size() == 2);
@@ -51,54 +51,54 @@ TEST_CASE("Intel JSON: scans, poses and times are read") {
 }
 
 TEST_CASE("Intel JSON: a bad file is refused with the scan and the cause") {
-  CHECK(parse_refusal(with_scan(good_fields)).empty());
-  CHECK_THAT(parse_refusal(""), Contains("a.json: not valid JSON") && Contains("byte 1"));
-  CHECK_THAT(parse_refusal("{}"), Contains("holds no scans"));
-  CHECK_THAT(parse_refusal("[]"), Contains("an array where the scans must be"));
-  CHECK_THAT(parse_refusal("3"), Contains("has 3 where an object must be"));
-  CHECK_THAT(parse_refusal(R"({"scans": {}})"), Contains("\"scans\" where \"map\" must be"));
-  CHECK_THAT(parse_refusal(R"({"map": 7})"), Contains("7 where an object must be"));
-  CHECK_THAT(parse_refusal(R"({"map": {"1": null}})"), Contains("null where an object must be"));
-  CHECK_THAT(parse_refusal(R"({"map": {"noon": {}}})"), Contains("\"noon\" must be named by its time"));
-  CHECK_THAT(parse_refusal(R"({"map": {"nan": {}}})"), Contains("\"nan\" must be named by its time"));
-  CHECK_THAT(parse_refusal(with_scan(R"("range": [1, 2, 3], "x": 1, "y": 1)")),
+  CHECK(intel_refusal(with_scan(good_fields)).empty());
+  CHECK_THAT(intel_refusal(""), Contains("a.json: not valid JSON") && Contains("byte 1"));
+  CHECK_THAT(intel_refusal("{}"), Contains("holds no scans"));
+  CHECK_THAT(intel_refusal("[]"), Contains("an array where the scans must be"));
+  CHECK_THAT(intel_refusal("3"), Contains("has 3 where an object must be"));
+  CHECK_THAT(intel_refusal(R"({"scans": {}})"), Contains("\"scans\" where \"map\" must be"));
+  CHECK_THAT(intel_refusal(R"({"map": 7})"), Contains("7 where an object must be"));
+  CHECK_THAT(intel_refusal(R"({"map": {"1": null}})"), Contains("null where an object must be"));
+  CHECK_THAT(intel_refusal(R"({"map": {"noon": {}}})"), Contains("\"noon\" must be named by its time"));
+  CHECK_THAT(intel_refusal(R"({"map": {"nan": {}}})"), Contains("\"nan\" must be named by its time"));
+  CHECK_THAT(intel_refusal(with_scan(R"("range": [1, 2, 3], "x": 1, "y": 1)")),
              Contains("the scan \"1.5\" lacks \"theta\""));
-  CHECK_THAT(parse_refusal(with_scan(R"("x": 1, "y": 1, "theta": 0)")), Contains("lacks \"range\""));
-  CHECK_THAT(parse_refusal(with_scan(R"("range": [], "x": 1, "y": 1, "theta": 0)")),
+  CHECK_THAT(intel_refusal(with_scan(R"("x": 1, "y": 1, "theta": 0)")), Contains("lacks \"range\""));
+  CHECK_THAT(intel_refusal(with_scan(R"("range": [], "x": 1, "y": 1, "theta": 0)")),
              Contains("lacks \"range\""));
-  CHECK_THAT(parse_refusal(with_scan(R"("range": 3)")) + parse_refusal(with_scan(R"("range": "a")")),
+  CHECK_THAT(intel_refusal(with_scan(R"("range": 3)")) + intel_refusal(with_scan(R"("range": "a")")),
              Contains("\"range\" \"a\", which must be an array of numbers"));
-  CHECK_THAT(parse_refusal(with_scan(R"("range": [1, "a"])")),
+  CHECK_THAT(intel_refusal(with_scan(R"("range": [1, "a"])")),
              Contains("a reading \"a\", but it must be a number"));
-  CHECK_THAT(parse_refusal(with_scan(R"("range": [1, [2]])")), Contains("an array among the readings"));
-  CHECK_THAT(parse_refusal(with_scan(R"("range": [1], "range": [2])")), Contains("two fields \"range\""));
-  CHECK_THAT(parse_refusal(with_scan(R"("x": {"y": 1})")), Contains("an object too many"));
-  CHECK_THAT(parse_refusal(with_scan(R"("x": true)")), Contains("\"x\" true, which must be a number"));
-  CHECK_THAT(parse_refusal(with_scan(R"("x": 1e7)")), Contains("\"x\" is 1e+07, but must be within 1e+06"));
-  CHECK_THAT(parse_refusal(with_scan(R"("x": 1e999)")), Contains("a number is out of range"));
-  CHECK_THAT(parse_refusal(R"({"map": {"1": {)" + good_fields +
+  CHECK_THAT(intel_refusal(with_scan(R"("range": [1, [2]])")), Contains("an array among the readings"));
+  CHECK_THAT(intel_refusal(with_scan(R"("range": [1], "range": [2])")), Contains("two fields \"range\""));
+  CHECK_THAT(intel_refusal(with_scan(R"("x": {"y": 1})")), Contains("an object too many"));
+  CHECK_THAT(intel_refusal(with_scan(R"("x": true)")), Contains("\"x\" true, which must be a number"));
+  CHECK_THAT(intel_refusal(with_scan(R"("x": 1e7)")), Contains("\"x\" is 1e+07, but must be within 1e+06"));
+  CHECK_THAT(intel_refusal(with_scan(R"("x": 1e999)")), Contains("a number is out of range"));
+  CHECK_THAT(intel_refusal(R"({"map": {"1": {)" + good_fields +
                            R"(}, "2": {"range": [1], "x": 1, "y": 1, "theta": 0}}})"),
              Contains("the scan \"2\" has 1 readings, but must have 3"));
-  CHECK_THAT(parse_refusal(with_scan(good_fields) + "x"), Contains("not valid JSON"));
-  CHECK_THAT(parse_refusal(R"({"map": {"1)" + std::string("\n") + R"(": {}}})"), Contains("not valid JSON"));
+  CHECK_THAT(intel_refusal(with_scan(good_fields) + "x"), Contains("not valid JSON"));
+  CHECK_THAT(intel_refusal(R"({"map": {"1)" + std::string("\n") + R"(": {}}})"), Contains("not valid JSON"));
   CHECK_THAT(refusal([] { return read_intel_json("missing.json"); }), Contains("no such file"));
 }
 
 TEST_CASE("Intel JSON: depth and size are bounded") {
-  CHECK_THAT(parse_refusal(std::string(1 << 20, '[')), Contains("an array where the scans must be"));
-  CHECK_THAT(parse_refusal(with_scan("\"deep\": " + std::string(1 << 20, '['))), Contains("not valid JSON"));
+  CHECK_THAT(intel_refusal(std::string(1 << 20, '[')), Contains("an array where the scans must be"));
+  CHECK_THAT(intel_refusal(with_scan("\"deep\": " + std::string(1 << 20, '['))), Contains("not valid JSON"));
   std::string many = "\"range\": [0";
   for (std::size_t i = 0; i < log_beams_max; ++i) many += ",0";
-  CHECK_THAT(parse_refusal(with_scan(many + "]")), Contains("more than 10000 readings"));
+  CHECK_THAT(intel_refusal(with_scan(many + "]")), Contains("more than 10000 readings"));
 }
 
 TEST_CASE("Intel JSON: files cut off or spoilt are read or refused") {
   const std::string good = R"({"map": {"1": {)" + good_fields + R"(}, "2": {)" + good_fields + "}}}";
   for (std::size_t size = 0; size < good.size(); ++size) {
     CAPTURE(size);
-    CHECK_THAT(parse_refusal(good.substr(0, size)), Contains("a.json: "));
+    CHECK_THAT(intel_refusal(good.substr(0, size)), Contains("a.json: "));
   }
-  CHECK(io_test::refused_when_spoilt(good, 5000, parse) > 1000);
+  CHECK(io_test::refused_when_spoilt(good, 5000, parse_intel) > 1000);
 }
 
 TEST_CASE("Intel JSON: the Intel Research Lab") {

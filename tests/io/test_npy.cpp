@@ -29,19 +29,19 @@ const std::string floats = numpy_file("{'descr': '<f4', 'fortran_order': False, 
                                       std::string("\x00\x00\xc0\x3f\x00\x00\x00\xc0\x00\x00\x00\x00"
                                                   "\x00\x00\x80\x7f\x00\x00\x50\x40\xc2\x16\x01\x00",
                                                   24));
-const std::string bytes = numpy_file("{'descr': '|u1', 'fortran_order': False, 'shape': (2,), }", "\x07\xff");
+const std::string two_bytes = numpy_file("{'descr': '|u1', 'fortran_order': False, 'shape': (2,), }", "\x07\xff");
 const std::string ints = numpy_file("{'descr': '<i4', 'fortran_order': False, 'shape': (2,), }",
                                     std::string("\xff\xff\xff\xff\xff\xff\xff\x7f", 8));
 const std::string scalar = numpy_file("{'descr': '<f8', 'fortran_order': False, 'shape': (), }",
                                       std::string("\x00\x00\x00\x00\x00\x00\x04\x40", 8));
 
 template <class Number = float>
-std::string decode_refusal(const std::string& content) {
+std::string numpy_refusal(const std::string& content) {
   return refusal([&] { return decode_npy<Number>(content, "a.npy"); });
 }
 
 /// A file with 24 bytes of data behind this dictionary.
-std::string with_header(const std::string& dictionary) { return numpy_file(dictionary, std::string(24, '\0')); }
+std::string numpy_with_header(const std::string& dictionary) { return numpy_file(dictionary, std::string(24, '\0')); }
 
 template <class Number>
 void round_trip(const std::vector<std::size_t>& shape, std::uint64_t seed) {
@@ -69,7 +69,7 @@ TEST_CASE("npy: what numpy.save wrote is read") {
   CHECK(read.values[3] == std::numeric_limits<float>::infinity());
   CHECK(read.values[4] == 3.25F);
   CHECK(read.values[5] == 1e-40F);
-  CHECK(decode_npy<std::uint8_t>(bytes, "a.npy").values == std::vector<std::uint8_t>{7, 255});
+  CHECK(decode_npy<std::uint8_t>(two_bytes, "a.npy").values == std::vector<std::uint8_t>{7, 255});
   CHECK(decode_npy<std::int32_t>(ints, "a.npy").values == std::vector<std::int32_t>{-1, 2147483647});
   CHECK(decode_npy<double>(scalar, "a.npy").values == std::vector<double>{2.5});
   CHECK(decode_npy<double>(scalar, "a.npy").shape.empty());
@@ -77,7 +77,7 @@ TEST_CASE("npy: what numpy.save wrote is read") {
 
 TEST_CASE("npy: what is written is what numpy.save writes, to the byte") {
   CHECK(encode_npy(decode_npy<float>(floats, "a.npy")) == floats);
-  CHECK(encode_npy(decode_npy<std::uint8_t>(bytes, "a.npy")) == bytes);
+  CHECK(encode_npy(decode_npy<std::uint8_t>(two_bytes, "a.npy")) == two_bytes);
   CHECK(encode_npy(decode_npy<std::int32_t>(ints, "a.npy")) == ints);
   CHECK(encode_npy(decode_npy<double>(scalar, "a.npy")) == scalar);
   CHECK(encode_npy(NpyArray<float>{{0, 3}, {}}) ==
@@ -98,7 +98,7 @@ TEST_CASE("npy: headers in another order and form are read") {
   for (const std::string dictionary :
        {"{\"shape\": (2,3),\"fortran_order\":False,\"descr\":\"<f4\"}",
         "  { 'shape' : ( 2 , 3 , ) , 'descr' : '<f4' , 'fortran_order' : False }  "}) {
-    CHECK(decode_npy<float>(with_header(dictionary), "a.npy").shape == std::vector<std::size_t>{2, 3});
+    CHECK(decode_npy<float>(numpy_with_header(dictionary), "a.npy").shape == std::vector<std::size_t>{2, 3});
   }
 }
 
@@ -127,16 +127,16 @@ TEST_CASE("npy: what is not understood is refused") {
            {"{'descr': '<f4, 'fortran_order': False, 'shape': (6,)}", "where a } is awaited"},
            {"", "where a { is awaited"}}) {
     CAPTURE(dictionary);
-    CHECK_THAT(decode_refusal(with_header(dictionary)), Contains("a.npy: not a valid .npy: ") && Contains(what));
+    CHECK_THAT(numpy_refusal(numpy_with_header(dictionary)), Contains("a.npy: not a valid .npy: ") && Contains(what));
   }
-  CHECK_THAT(decode_refusal(""), Contains("must start with"));
-  CHECK_THAT(decode_refusal("\x93NUMPY\x01"), Contains("ends before its header"));
+  CHECK_THAT(numpy_refusal(""), Contains("must start with"));
+  CHECK_THAT(numpy_refusal("\x93NUMPY\x01"), Contains("ends before its header"));
   std::string version = floats;
   version[6] = 2;
-  CHECK_THAT(decode_refusal(version), Contains("version 2.0, but must be of 1.0"));
-  CHECK_THAT(decode_refusal(floats.substr(0, 100)), Contains("its header has 118 bytes, but 90 follow"));
-  CHECK_THAT(decode_refusal(floats.substr(0, floats.size() - 1)), Contains("asks for 24 bytes of data, but 23 follow"));
-  CHECK_THAT(decode_refusal<double>(floats), Contains("numbers are \"<f4\", but must be \"<f8\""));
+  CHECK_THAT(numpy_refusal(version), Contains("version 2.0, but must be of 1.0"));
+  CHECK_THAT(numpy_refusal(floats.substr(0, 100)), Contains("its header has 118 bytes, but 90 follow"));
+  CHECK_THAT(numpy_refusal(floats.substr(0, floats.size() - 1)), Contains("asks for 24 bytes of data, but 23 follow"));
+  CHECK_THAT(numpy_refusal<double>(floats), Contains("numbers are \"<f4\", but must be \"<f8\""));
   CHECK_THAT(refusal([] { return read_npy<float>("missing.npy"); }), Contains("no such file"));
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("npy: arrays that cannot be written") {
 }
 
 TEST_CASE("npy: files cut off or spoilt are read or refused") {
-  for (std::size_t size = 0; size < floats.size(); ++size) CHECK_FALSE(decode_refusal(floats.substr(0, size)).empty());
+  for (std::size_t size = 0; size < floats.size(); ++size) CHECK_FALSE(numpy_refusal(floats.substr(0, size)).empty());
   CHECK(io_test::refused_when_spoilt(floats, 5000, [](const std::string& text) {
           return decode_npy<float>(text, "a.npy");
         }) > 1000);

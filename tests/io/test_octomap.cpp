@@ -109,11 +109,11 @@ OccupancyGrid<Dim> random_grid(std::uint64_t seed, double resolution_m, const In
   return grid;
 }
 
-std::string decode_refusal(const std::string& content) {
+std::string octomap_refusal(const std::string& content) {
   return refusal([&] { return decode_octomap(content, "a.bt"); });
 }
 
-std::string with_header(const std::string& header) { return comments + header + "data\n" + three_voxels.substr(three_voxels.size() - 62); }
+std::string octomap_with_header(const std::string& header) { return comments + header + "data\n" + three_voxels.substr(three_voxels.size() - 62); }
 
 }  // namespace
 
@@ -227,8 +227,8 @@ TEST_CASE("OctoMap: the ends of its keys, and lattices that it cannot hold") {
 
 TEST_CASE("OctoMap: what is not understood is refused") {
   const std::string good = "id OcTree\nsize 34\nres 0.1\n";
-  CHECK(decode_refusal(with_header(good)).empty());
-  CHECK(decode_refusal(with_header("# more\r\nres 0.1\n\nsize 34\r\nid OcTree\n")).empty());
+  CHECK(octomap_refusal(octomap_with_header(good)).empty());
+  CHECK(octomap_refusal(octomap_with_header("# more\r\nres 0.1\n\nsize 34\r\nid OcTree\n")).empty());
   for (const auto& [header, what] : std::vector<std::pair<std::string, std::string>>{
            {"id ColorOcTree\nsize 34\nres 0.1\n", "its id is \"ColorOcTree\", but must be OcTree"},
            {"id OcTree\nsize 33\nres 0.1\n", "it has 34 nodes, but its size is 33"},
@@ -242,19 +242,19 @@ TEST_CASE("OctoMap: what is not understood is refused") {
            {"id OcTree\nsize 34\nres 0.1\ncolour red\n", "the line \"colour red\""},
            {"id OcTree\nsize 0\nres 0.1\n", "it goes on after its tree by 62 bytes"}}) {
     CAPTURE(header);
-    CHECK_THAT(decode_refusal(with_header(header)), Contains("a.bt: not a valid .bt file: ") && Contains(what));
+    CHECK_THAT(octomap_refusal(octomap_with_header(header)), Contains("a.bt: not a valid .bt file: ") && Contains(what));
   }
-  CHECK_THAT(decode_refusal(""), Contains("must start with"));
-  CHECK_THAT(decode_refusal("# Octomap OcTree file\n"), Contains("must start with"));
-  CHECK_THAT(decode_refusal(comments + good), Contains("ends before the line \"data\""));
-  CHECK_THAT(decode_refusal(three_voxels.substr(0, three_voxels.size() - 1)), Contains("ends within its tree"));
-  CHECK_THAT(decode_refusal(three_voxels + "x"), Contains("goes on after its tree by 1 bytes"));
+  CHECK_THAT(octomap_refusal(""), Contains("must start with"));
+  CHECK_THAT(octomap_refusal("# Octomap OcTree file\n"), Contains("must start with"));
+  CHECK_THAT(octomap_refusal(comments + good), Contains("ends before the line \"data\""));
+  CHECK_THAT(octomap_refusal(three_voxels.substr(0, three_voxels.size() - 1)), Contains("ends within its tree"));
+  CHECK_THAT(octomap_refusal(three_voxels + "x"), Contains("goes on after its tree by 1 bytes"));
   // A node below the last level, and leaves that stand for more cells than are allowed.
   std::string deep = three_voxels;
   deep.replace(deep.size() - 2, 1, "\x03");
-  CHECK_THAT(decode_refusal(deep), Contains("deeper than 16 levels"));
+  CHECK_THAT(octomap_refusal(deep), Contains("deeper than 16 levels"));
   const std::string large = comments + "id OcTree\nsize 9\nres 0.1\ndata\n\x55\x55";
-  CHECK_THAT(decode_refusal(large), Contains("spans more than 268435456 cells"));
+  CHECK_THAT(octomap_refusal(large), Contains("spans more than 268435456 cells"));
   CHECK_THAT(refusal([] { return read_octomap("missing.bt"); }), Contains("no such file"));
   CHECK_THAT(refusal([] {
                write_octomap("/proc/none/a.bt", OccupancyGrid<2>(Lattice<2>(0.1)));
@@ -264,7 +264,7 @@ TEST_CASE("OctoMap: what is not understood is refused") {
 }
 
 TEST_CASE("OctoMap: files cut off or spoilt are read or refused") {
-  for (std::size_t size = 0; size < three_voxels.size(); ++size) CHECK_FALSE(decode_refusal(three_voxels.substr(0, size)).empty());
+  for (std::size_t size = 0; size < three_voxels.size(); ++size) CHECK_FALSE(octomap_refusal(three_voxels.substr(0, size)).empty());
   // Without much room: a spoilt tree may span anything.
   CHECK(io_test::refused_when_spoilt(three_voxels, 2000, [](const std::string& text) {
           return decode_octomap(text, "a.bt", {0.0, 0.05}).size();

@@ -18,7 +18,7 @@ using Values = std::vector<std::uint8_t>;
 
 Values values_of(const std::string& content) { return decode_pgm(content, "x").values; }
 
-std::string decode_refusal(const std::string& content) {
+std::string pgm_refusal(const std::string& content) {
   return refusal([&] { return decode_pgm(content, "x.pgm"); });
 }
 
@@ -61,16 +61,16 @@ TEST_CASE("PGM: a file cut off anywhere is refused") {
   const std::string binary = "P5\n# a comment\n4 3\n255\nabcdefghijkl";
   for (std::size_t size = 0; size < binary.size(); ++size) {
     CAPTURE(size);
-    CHECK_THAT(decode_refusal(binary.substr(0, size)), Contains("x.pgm: not a valid PGM"));
+    CHECK_THAT(pgm_refusal(binary.substr(0, size)), Contains("x.pgm: not a valid PGM"));
   }
   const std::string wide = std::string("P5 2 2 65535 \1\2\3\4\5\6\7\x8", 21);
   for (std::size_t size = 0; size < wide.size(); ++size)
-    CHECK_FALSE(decode_refusal(wide.substr(0, size)).empty());
+    CHECK_FALSE(pgm_refusal(wide.substr(0, size)).empty());
   // Of a plain file the last number may be cut without a trace: the format has no end mark.
   const std::string plain = "P2\n4 3\n255\n1 2 3 4 5 6 7 8 9 10 11 12\n";
   for (std::size_t size = 0; size + 2 < plain.size(); ++size) {
     CAPTURE(size);
-    CHECK_FALSE(decode_refusal(plain.substr(0, size)).empty());
+    CHECK_FALSE(pgm_refusal(plain.substr(0, size)).empty());
   }
 }
 
@@ -81,20 +81,20 @@ TEST_CASE("PGM: spoilt files are read or refused") {
 }
 
 TEST_CASE("PGM: bad headers and values are refused with their cause") {
-  CHECK_THAT(decode_refusal("P5 65536 65536 255\n"), Contains("65536 x 65536 pixels"));
-  CHECK_THAT(decode_refusal("P5 8192 8192 255\nabc"), Contains("need at least 67108864 bytes, but 3 follow"));
-  CHECK_THAT(decode_refusal("P2 8192 8192 255\n1 2"), Contains("need at least"));
-  CHECK_THAT(decode_refusal("P5 99999999999999999999 1 255\nx"), Contains("the width is \"99999999999999999999\", but must be at most"));
-  CHECK_THAT(decode_refusal("P5 0 1 255\nx"), Contains("0 x 1 pixels"));
-  CHECK_THAT(decode_refusal("P5 -1 1 255\nx"), Contains("the width is \"-1\", but must be a whole number"));
-  CHECK_THAT(decode_refusal("P5 1 1.5 255\nx"), Contains("the height is \"1.5\", but must be a whole number"));
-  CHECK_THAT(decode_refusal("P5 1 1 0\nx"), Contains("the largest grey value is 0"));
-  CHECK_THAT(decode_refusal("P5 1 1 65536\nx"), Contains("the largest grey value is \"65536\", but must be at most 65535"));
-  CHECK_THAT(decode_refusal("P5 1 1 255#c\nx"), Contains("white space must follow the largest grey value, not \"#\""));
-  CHECK_THAT(decode_refusal("P5 1 1 99\nx"), Contains("a pixel is 120, but must be at most 99"));
-  CHECK_THAT(decode_refusal("P2 1 1 99 100"), Contains("a pixel is 100, but must be at most 99"));
-  CHECK_THAT(decode_refusal("P2 2 1 99 1 x"), Contains("a pixel is \"x\", but must be a whole number"));
-  CHECK_THAT(decode_refusal("P6 1 1 255\nxyz"), Contains("it starts with \"P6\", but must start with P2 or P5"));
-  CHECK_THAT(decode_refusal(""), Contains("must start with P2 or P5"));
+  CHECK_THAT(pgm_refusal("P5 65536 65536 255\n"), Contains("65536 x 65536 pixels"));
+  CHECK_THAT(pgm_refusal("P5 8192 8192 255\nabc"), Contains("need at least 67108864 bytes, but 3 follow"));
+  CHECK_THAT(pgm_refusal("P2 8192 8192 255\n1 2"), Contains("need at least"));
+  CHECK_THAT(pgm_refusal("P5 99999999999999999999 1 255\nx"), Contains("the width is \"99999999999999999999\", but must be at most"));
+  CHECK_THAT(pgm_refusal("P5 0 1 255\nx"), Contains("0 x 1 pixels"));
+  CHECK_THAT(pgm_refusal("P5 -1 1 255\nx"), Contains("the width is \"-1\", but must be a whole number"));
+  CHECK_THAT(pgm_refusal("P5 1 1.5 255\nx"), Contains("the height is \"1.5\", but must be a whole number"));
+  CHECK_THAT(pgm_refusal("P5 1 1 0\nx"), Contains("the largest grey value is 0"));
+  CHECK_THAT(pgm_refusal("P5 1 1 65536\nx"), Contains("the largest grey value is \"65536\", but must be at most 65535"));
+  CHECK_THAT(pgm_refusal("P5 1 1 255#c\nx"), Contains("white space must follow the largest grey value, not \"#\""));
+  CHECK_THAT(pgm_refusal("P5 1 1 99\nx"), Contains("a pixel is 120, but must be at most 99"));
+  CHECK_THAT(pgm_refusal("P2 1 1 99 100"), Contains("a pixel is 100, but must be at most 99"));
+  CHECK_THAT(pgm_refusal("P2 2 1 99 1 x"), Contains("a pixel is \"x\", but must be a whole number"));
+  CHECK_THAT(pgm_refusal("P6 1 1 255\nxyz"), Contains("it starts with \"P6\", but must start with P2 or P5"));
+  CHECK_THAT(pgm_refusal(""), Contains("must start with P2 or P5"));
   CHECK_THAT(refusal([] { return encode_pgm(Image{1, 1, 2, {1, 2}}, "x"); }), Contains("has 2 channels"));
 }

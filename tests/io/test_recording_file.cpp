@@ -23,7 +23,7 @@ using io_test::refusal;
 
 namespace {
 
-std::string refused(const std::string& bytes) {
+std::string recording_refusal(const std::string& bytes) {
   return refusal([&] { return parse_recording(bytes, "run.incognita"); });
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("a recording that is cut off anywhere is what was complete") {
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const std::string cut = bytes.substr(0, size);
     if (size < places[1]) {
-      REQUIRE_THAT(refused(cut), Contains("run.incognita: is cut off before the end of the run's setup"));
+      REQUIRE_THAT(recording_refusal(cut), Contains("run.incognita: is cut off before the end of the run's setup"));
       continue;
     }
     std::size_t records = 0;
@@ -106,7 +106,7 @@ TEST_CASE("a recording with any bit turned is refused, or cut off where a record
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     std::string damaged = bytes;
     damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << (bit % 8)));
-    if (refused(damaged) != "") continue;
+    if (recording_refusal(damaged) != "") continue;
     const Recording cut = parse_recording(damaged, "run");
     REQUIRE(cut.torn_bytes > 0);
     const std::size_t first = bytes.size() - cut.torn_bytes;
@@ -117,48 +117,48 @@ TEST_CASE("a recording with any bit turned is refused, or cut off where a record
 }
 
 TEST_CASE("what is no recording, or one of another version, is refused") {
-  CHECK_THAT(refused("<?xml version=\"1.0\"?>"), Contains("run.incognita: is not a recording of a run"));
-  CHECK_THAT(refused("INCOGREX"), Contains("is not a recording"));
-  CHECK_THAT(refused("x"), Contains("is not a recording"));
-  CHECK_THAT(refused(""), Contains("is cut off before the end of the run's setup"));
-  CHECK_THAT(refused(recording_head(2) + setup_bytes().substr(12)), Contains("has version 2, but must have 1"));
-  CHECK_THAT(refused(recording_head(0xFFFFFFFF)), Contains("has version 4294967295, but must have 1"));
-  CHECK(refused(setup_bytes()).empty());
+  CHECK_THAT(recording_refusal("<?xml version=\"1.0\"?>"), Contains("run.incognita: is not a recording of a run"));
+  CHECK_THAT(recording_refusal("INCOGREX"), Contains("is not a recording"));
+  CHECK_THAT(recording_refusal("x"), Contains("is not a recording"));
+  CHECK_THAT(recording_refusal(""), Contains("is cut off before the end of the run's setup"));
+  CHECK_THAT(recording_refusal(recording_head(2) + setup_bytes().substr(12)), Contains("has version 2, but must have 1"));
+  CHECK_THAT(recording_refusal(recording_head(0xFFFFFFFF)), Contains("has version 4294967295, but must have 1"));
+  CHECK(recording_refusal(setup_bytes()).empty());
 }
 
 TEST_CASE("records out of order, of no type, or with something left over are refused at their byte") {
   const std::string setup = setup_bytes();
   const std::string at = "is damaged at byte " + std::to_string(setup.size()) + ": ";
-  CHECK_THAT(refused(recording_head() + frame_bytes(0.0)), Contains("is damaged at byte 12: a record out of order"));
-  CHECK_THAT(refused(setup + setup.substr(12)), Contains(at + "a record out of order"));
-  CHECK_THAT(refused(setup + record(5, "")), Contains(at + "a record of type 5, which must be 1 to 4"));
-  CHECK_THAT(refused(setup + record(0, "")), Contains(at + "a record of type 0"));
+  CHECK_THAT(recording_refusal(recording_head() + frame_bytes(0.0)), Contains("is damaged at byte 12: a record out of order"));
+  CHECK_THAT(recording_refusal(setup + setup.substr(12)), Contains(at + "a record out of order"));
+  CHECK_THAT(recording_refusal(setup + record(5, "")), Contains(at + "a record of type 5, which must be 1 to 4"));
+  CHECK_THAT(recording_refusal(setup + record(0, "")), Contains(at + "a record of type 0"));
   std::string wrong = setup + frame_bytes(0.0);
   wrong.back() = static_cast<char>(wrong.back() ^ 1);
-  CHECK_THAT(refused(wrong), Contains(at + "a record whose checksum is wrong"));
-  CHECK_THAT(refused(setup + frame_bytes(1.0) + frame_bytes(0.5)), Contains("a frame earlier than the one before"));
-  CHECK(refused(setup + frame_bytes(1.0) + frame_bytes(1.0)).empty());
+  CHECK_THAT(recording_refusal(wrong), Contains(at + "a record whose checksum is wrong"));
+  CHECK_THAT(recording_refusal(setup + frame_bytes(1.0) + frame_bytes(0.5)), Contains("a frame earlier than the one before"));
+  CHECK(recording_refusal(setup + frame_bytes(1.0) + frame_bytes(1.0)).empty());
   const auto decision = [](double time_s) { return record(3, payload_of(put_decision, decision_at(time_s))); };
-  CHECK_THAT(refused(setup + decision(1.0) + decision(0.5)), Contains("a decision earlier than the one before"));
-  CHECK(refused(setup + decision(1.0) + frame_bytes(0.5) + decision(1.0)).empty());
+  CHECK_THAT(recording_refusal(setup + decision(1.0) + decision(0.5)), Contains("a decision earlier than the one before"));
+  CHECK(recording_refusal(setup + decision(1.0) + frame_bytes(0.5) + decision(1.0)).empty());
   const std::string end = record(4, payload_of(put_end, RecordedEnd{}));
-  CHECK_THAT(refused(setup + end + "a"), Contains("1 bytes too many"));
-  CHECK_THAT(refused(setup + end + end), Contains("bytes too many"));
-  CHECK_THAT(refused(setup + record(4, payload_of(put_end, RecordedEnd{}) + "abc")), Contains("3 bytes too many"));
+  CHECK_THAT(recording_refusal(setup + end + "a"), Contains("1 bytes too many"));
+  CHECK_THAT(recording_refusal(setup + end + end), Contains("bytes too many"));
+  CHECK_THAT(recording_refusal(setup + record(4, payload_of(put_end, RecordedEnd{}) + "abc")), Contains("3 bytes too many"));
 }
 
 TEST_CASE("records with values out of bounds are refused at their byte") {
   RecordingSetup bad;
   bad.range_max_m = -1.0;
-  CHECK_THAT(refused(recording_head() + record(1, payload_of(put_setup, bad))),
+  CHECK_THAT(recording_refusal(recording_head() + record(1, payload_of(put_setup, bad))),
              Contains("is damaged at byte 12: RecordingSetup: range_max_m is -1, but must be finite and > 0"));
   RecordedFrame frame;
   frame.ranges = {1};
-  CHECK_THAT(refused(setup_bytes() + record(2, payload_of(put_frame, frame))), Contains("number of ranges is 1, but must be 0 or that of the beams"));
+  CHECK_THAT(recording_refusal(setup_bytes() + record(2, payload_of(put_frame, frame))), Contains("number of ranges is 1, but must be 0 or that of the beams"));
   frame.ranges.clear();
   frame.metrics = {1.0};
-  CHECK_THAT(refused(setup_bytes() + record(2, payload_of(put_frame, frame))), Contains("number of metrics is 1"));
-  CHECK_THAT(refused(setup_bytes() + record(3, payload_of(put_decision, decision_at(std::numeric_limits<double>::infinity())))),
+  CHECK_THAT(recording_refusal(setup_bytes() + record(2, payload_of(put_frame, frame))), Contains("number of metrics is 1"));
+  CHECK_THAT(recording_refusal(setup_bytes() + record(3, payload_of(put_decision, decision_at(std::numeric_limits<double>::infinity())))),
              Contains("time_s is inf"));
 }
 

@@ -17,7 +17,7 @@ using io_test::refusal;
 
 namespace {
 
-std::string parse_refusal(const std::string& text) {
+std::string tum_refusal(const std::string& text) {
   return refusal([&] { return parse_tum(text, "a.tum"); });
 }
 
@@ -109,13 +109,13 @@ TEST_CASE("TUM: a bad line is refused with its number") {
   for (const std::string bad : {"1 2 3", "0 0 0 0 0 0 0 1 9", "0 0 x 0 0 0 0 1", "0 nan 0 0 0 0 0 1",
                                 "inf 0 0 0 0 0 0 1", "0,0,0,0,0,0,0,1", "0 0 0 0 0 0 0 1e999", "x"}) {
     CAPTURE(bad);
-    CHECK_THAT(parse_refusal("# first\n" + good + bad + "\n" + good),
+    CHECK_THAT(tum_refusal("# first\n" + good + bad + "\n" + good),
                Contains("a.tum: line 3 is \"" + bad + "\"") && Contains("eight finite numbers"));
   }
-  CHECK_THAT(parse_refusal("0 0 0 0 0 0 0 0"), Contains("line 1 has a quaternion of length 0"));
-  CHECK_THAT(parse_refusal("0 0 0 0 1 1 1 1"), Contains("line 1 has a quaternion of length 2"));
-  CHECK_THAT(parse_refusal("0 0 0 0 1e200 1e200 1e200 1e200"), Contains("quaternion"));
-  CHECK_THAT(parse_refusal(std::string("\0\0\0", 3)), Contains("line 1"));
+  CHECK_THAT(tum_refusal("0 0 0 0 0 0 0 0"), Contains("line 1 has a quaternion of length 0"));
+  CHECK_THAT(tum_refusal("0 0 0 0 1 1 1 1"), Contains("line 1 has a quaternion of length 2"));
+  CHECK_THAT(tum_refusal("0 0 0 0 1e200 1e200 1e200 1e200"), Contains("quaternion"));
+  CHECK_THAT(tum_refusal(std::string("\0\0\0", 3)), Contains("line 1"));
   CHECK_THAT(refusal([] { return read_tum("missing.tum"); }), Contains("no such file"));
 }
 

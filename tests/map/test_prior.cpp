@@ -26,7 +26,7 @@ namespace {
 static_assert(PriorPolicy<TBayes> && PriorPolicy<LogOdds> && PriorPolicy<Dispersion>);
 
 /// A policy that cannot start from log-odds, and one that could but says so in another type.
-struct Counting {
+struct Tally {
   struct State {
     int count = 0;
   };
@@ -38,12 +38,12 @@ struct Counting {
   void forget_stamp(State&) const {}
   static float log_odds(const State& state) { return 0.1F * static_cast<float>(state.count); }
 };
-struct CountsInFloats : Counting {
+struct TallyInFloats : Tally {
   float state_of_log_odds(float log_odds) const { return 10.0F * log_odds; }
 };
-static_assert(CellPolicy<Counting> && !PriorPolicy<Counting>);
-static_assert(CellPolicy<CountsInFloats> && !PriorPolicy<CountsInFloats>);
-static_assert(!std::is_constructible_v<Map<Counting>, const Grid<float, 2>&, const MapParams&>);
+static_assert(CellPolicy<Tally> && !PriorPolicy<Tally>);
+static_assert(CellPolicy<TallyInFloats> && !PriorPolicy<TallyInFloats>);
+static_assert(!std::is_constructible_v<Map<Tally>, const Grid<float, 2>&, const MapParams&>);
 static_assert(std::is_constructible_v<Map<TBayes>, const Grid<float, 2>&, const MapParams&>);
 
 struct RememberedStamp : LogOdds {

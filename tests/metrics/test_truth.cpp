@@ -3,18 +3,9 @@
 #include "../simulation/plans.hpp"
 #include "incognita/core/random.hpp"
 #include "incognita/metrics/truth.hpp"
-
-namespace {
+#include "set_cells.hpp"
 
 using namespace incognita;
-
-std::size_t count(const Grid<std::uint8_t, 2>& cells) {
-  std::size_t sum = 0;
-  for (const std::uint8_t cell : cells.values()) sum += cell;
-  return sum;
-}
-
-}  // namespace
 
 TEST_CASE("Cells with the centre of a wall pixel are occupied, solid ones are not", "[metrics]") {
   const FloorPlan plan = test::plan_from_rows({"x..#", "x..#", "x##."}, 0.1, {1.0, 2.0});
@@ -23,7 +14,7 @@ TEST_CASE("Cells with the centre of a wall pixel are occupied, solid ones are no
   CHECK(occupied.value({5, 10}) == 1);
   CHECK(occupied.value({6, 10}) == 1);
   CHECK(occupied.value({6, 11}) == 1);
-  CHECK(count(occupied) == 3);
+  CHECK(count_set(occupied) == 3);
 }
 
 TEST_CASE("Occupied cells in a turned frame, against a search for each cell", "[metrics]") {
@@ -48,6 +39,6 @@ TEST_CASE("Occupied cells in a turned frame, against a search for each cell", "[
 }
 
 TEST_CASE("A plan without walls occupies nothing", "[metrics]") {
-  CHECK(count(truly_occupied_cells(FloorPlan(Lattice<2>(0.1)), Pose2{}, Lattice<2>(0.2))) == 0);
-  CHECK(count(truly_occupied_cells(test::plan_from_rows({"..", "xx"}, 0.1), Pose2{}, Lattice<2>(0.2))) == 0);
+  CHECK(count_set(truly_occupied_cells(FloorPlan(Lattice<2>(0.1)), Pose2{}, Lattice<2>(0.2))) == 0);
+  CHECK(count_set(truly_occupied_cells(test::plan_from_rows({"..", "xx"}, 0.1), Pose2{}, Lattice<2>(0.2))) == 0);
 }

@@ -11,18 +11,13 @@
 #include "incognita/metrics/visible_floor.hpp"
 #include "incognita/sensor/ray_cast.hpp"
 #include "incognita/simulation/start.hpp"
+#include "set_cells.hpp"
 
 namespace {
 
 using namespace incognita;
 
 constexpr auto blocks = [](FloorCell cell) { return cell != FloorCell::floor; };
-
-std::size_t count(const Grid<std::uint8_t, 2>& cells) {
-  std::size_t sum = 0;
-  for (const std::uint8_t cell : cells.values()) sum += cell;
-  return sum;
-}
 
 /// Sight between all pairs. A segment that a corner decides may go either way here, so both ends are asked
 /// and a little to the sides: seen by all is seen, seen by none is not.
@@ -63,8 +58,8 @@ void check_real_plans(const std::vector<std::pair<std::string, double>>& plans) 
       if (blocks(plan[cell]) && visible[cell] != 0) FAIL("a wall counts as visible floor");
     }
     CAPTURE(name);
-    CHECK(static_cast<double>(count(visible)) > least_share * static_cast<double>(floor));
-    CHECK(static_cast<double>(count(visible)) < 0.995 * static_cast<double>(floor));
+    CHECK(static_cast<double>(count_set(visible)) > least_share * static_cast<double>(floor));
+    CHECK(static_cast<double>(count_set(visible)) < 0.995 * static_cast<double>(floor));
   }
 }
 
@@ -79,7 +74,7 @@ TEST_CASE("Visible floor against sight between all pairs, in small random worlds
     const ObstacleField field(plan, blocks);
     const double radius_m = 0.17;
     const Grid<std::uint8_t, 2> clear = disc_positions(field, radius_m);
-    if (count(clear) == 0) continue;
+    if (count_set(clear) == 0) continue;
     Offset first = static_cast<Offset>(random.index(clear.size()));
     while (clear[first] == 0) first = (first + 1) % static_cast<Offset>(clear.size());
     const double range_max_m = world % 3 == 0 ? 0.9 : 10.0;

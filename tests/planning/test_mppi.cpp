@@ -29,7 +29,7 @@ bool is_wall(Occupancy cell) { return cell == Occupancy::occupied; }
 /// Of nothing: everything is clear.
 const Grid<float, 2> open_floor{Lattice<2>(0.1)};
 
-struct Drive {
+struct SteeredDrive {
   double time_s = 0.0;
   double deviation_max_m = 0.0;
   bool finished = false;
@@ -37,8 +37,8 @@ struct Drive {
 };
 
 /// Follows until finished or for time_max_s; checks the limits.
-Drive drive(MppiController& controller, PathFollower course, const Pose2& start, const Grid<float, 2>& clearance_m, double time_max_s) {
-  Drive result{0.0, 0.0, false, start};
+SteeredDrive drive(MppiController& controller, PathFollower course, const Pose2& start, const Grid<float, 2>& clearance_m, double time_max_s) {
+  SteeredDrive result{0.0, 0.0, false, start};
   const MppiParams& params = controller.params();
   for (; result.time_s < time_max_s; result.time_s += params.step_s) {
     course.advance(result.pose);
@@ -124,7 +124,7 @@ struct Scene {
 
 TEST_CASE("A free straight path is driven along to its end", "[planning]") {
   MppiController controller;
-  const Drive straight = drive(controller, PathFollower({{0.0, 0.0}, {8.0, 0.0}}), {}, open_floor, 20.0);
+  const SteeredDrive straight = drive(controller, PathFollower({{0.0, 0.0}, {8.0, 0.0}}), {}, open_floor, 20.0);
   CHECK(straight.finished);
   CHECK(straight.deviation_max_m < 0.1);
   CHECK(straight.time_s < 9.5);
@@ -140,7 +140,7 @@ TEST_CASE("From any heading, and aside of the path, the robot gets to the path a
     MppiController controller(params);
     const Pose2 start{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-3.1, 3.1)};
     const Eigen::Vector2d end_m(random.uniform(2.0, 4.0), random.uniform(-2.0, 2.0));
-    const Drive there = drive(controller, PathFollower({{0.0, 0.0}, {1.5, 0.5}, end_m}), start, open_floor, 30.0);
+    const SteeredDrive there = drive(controller, PathFollower({{0.0, 0.0}, {1.5, 0.5}, end_m}), start, open_floor, 30.0);
     CAPTURE(trial, there.pose.x_m, there.pose.y_m);
     CHECK(there.finished);
     CHECK((there.pose.position() - end_m).norm() <= 0.1);

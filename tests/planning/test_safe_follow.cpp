@@ -16,7 +16,7 @@ using namespace incognita;
 
 namespace {
 
-bool is_free(Occupancy cell) { return cell == Occupancy::free; }
+bool is_known_free(Occupancy cell) { return cell == Occupancy::free; }
 
 /// A unicycle's pose after driving with constant speeds.
 Pose2 driven(const Pose2& pose, const Twist2& twist, double duration_s) {
@@ -54,7 +54,7 @@ TEST_CASE("The distance to the exterior is that to the nearest cell out of the s
   Random random(2);
   for (int draw = 0; draw < 100; ++draw) {
     const OccupancyGrid<2> belief = random_belief(random, 30, 24, 0.1);
-    const CellSet control = erode(belief, 0.1, is_free);
+    const CellSet control = erode(belief, 0.1, is_known_free);
     const Eigen::Vector2d somewhere = belief.lattice().center_m(belief.index_at(static_cast<Offset>(random.index(belief.size()))));
     const Eigen::Vector2d elsewhere = somewhere + Eigen::Vector2d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
     const DiscHull set(somewhere, elsewhere, random.uniform(0.0, 0.5));
@@ -142,7 +142,7 @@ TEST_CASE("A path through a passage one cell wide is followed on fine grids, wit
 
 TEST_CASE("A path without length is followed to its place, an empty one is finished", "[planning]") {
   const OccupancyGrid<2> belief(Lattice<2>(0.1), {{0, 0}, {20, 20}}, Occupancy::free);
-  const CellSet control = erode(belief, 0.1, is_free);
+  const CellSet control = erode(belief, 0.1, is_known_free);
   SafePathFollower none(Polyline{});
   CHECK(none.is_finished());
   CHECK(none.command({}, control, 0.1).speed_m_per_s == 0.0);

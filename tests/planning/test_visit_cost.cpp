@@ -69,14 +69,14 @@ Grid<double, 2> slow_costs(const Grid<float, 2>& cost_per_m, const Index<2>& sta
 }
 
 /// A belief with room, its planning space and a place in that.
-struct Scene {
+struct VisitScene {
   OccupancyGrid<2> belief;
   CellSet plan;
   Grid<float, 2> cost;
   std::vector<Index<2>> places;
 };
 
-Scene random_scene(Random& random, const VisitCostParams& params = {}) {
+VisitScene random_scene(Random& random, const VisitCostParams& params = {}) {
   OccupancyGrid<2> belief = random_belief(random, 36, 28, 0.1);
   CellSet plan = erode(belief, 0.15, [](Occupancy cell) { return cell == Occupancy::free; });
   Grid<float, 2> cost = visit_cost(belief, plan, params);
@@ -101,7 +101,7 @@ TEST_CASE("A visit costs the distance to the unknown over the distance to collis
     params.collision_max_m = random.uniform(0.2, 1.0);
     if (draw % 4 == 1) params.to_unknown = DistanceMeasure::uniform;
     if (draw % 4 == 2) params.to_collision = DistanceMeasure::uniform;
-    const Scene scene = random_scene(random, params);
+    const VisitScene scene = random_scene(random, params);
     for (Offset i = 0; i < static_cast<Offset>(scene.cost.size()); ++i) {
       const Index<2> cell = scene.cost.index_at(i);
       if (scene.plan[i] == 0) {
@@ -140,7 +140,7 @@ TEST_CASE("The inverse of a cell's entropy is a distance to the unknown too", "[
 TEST_CASE("Travel over visit costs is what relaxing every edge gives, for faces and for corners", "[planning]") {
   Random random(2);
   for (int draw = 0; draw < 12; ++draw) {
-    const Scene scene = random_scene(random);
+    const VisitScene scene = random_scene(random);
     if (scene.places.empty()) continue;
     const Index<2> start = any_of(random, scene.places);
     TravelCostField field(scene.belief.lattice());
@@ -161,7 +161,7 @@ TEST_CASE("Travel over visit costs is what relaxing every edge gives, for faces 
 TEST_CASE("Travel costs that differ a million times are still exact", "[planning]") {
   Random random(3);
   for (int draw = 0; draw < 10; ++draw) {
-    Scene scene = random_scene(random);
+    VisitScene scene = random_scene(random);
     if (scene.places.empty()) continue;
     for (float& cost : scene.cost.values()) {
       if (cost < kInfinite) cost = static_cast<float>(std::pow(10.0, random.uniform(-3.0, 3.0)));
@@ -180,7 +180,7 @@ TEST_CASE("Travel costs are a distance, and ways with more steps to take are no 
   Random random(4);
   int compared = 0;
   for (int draw = 0; draw < 30; ++draw) {
-    const Scene scene = random_scene(random);
+    const VisitScene scene = random_scene(random);
     if (scene.places.size() < 3) continue;
     const Lattice<2>& lattice = scene.belief.lattice();
     const Index<2> a = any_of(random, scene.places);
@@ -211,7 +211,7 @@ TEST_CASE("Travel costs are a distance, and ways with more steps to take are no 
 
 TEST_CASE("From a start out of the planning space nothing is reached, and bad costs are refused", "[planning]") {
   Random random(5);
-  Scene scene = random_scene(random);
+  VisitScene scene = random_scene(random);
   const Lattice<2>& lattice = scene.belief.lattice();
   TravelCostField field(lattice);
   for (Offset i = 0; i < static_cast<Offset>(scene.plan.size()); ++i) {

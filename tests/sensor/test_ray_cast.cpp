@@ -11,7 +11,7 @@ namespace {
 
 using namespace incognita;
 
-constexpr auto is_set = [](std::uint8_t value) { return value != 0; };
+constexpr auto is_wall = [](std::uint8_t value) { return value != 0; };
 
 /// The range by the slab method against every blocked cell on its own.
 template <int Dim>
@@ -55,7 +55,7 @@ void compare_with_brute_force(std::uint64_t seed, double share_blocked) {
     direction.normalize();
     const double range_max_m = random.uniform(0.1, 3.0);
     const double expected_m = brute_force_range_m<Dim>(grid, from, direction, range_max_m);
-    CHECK(cast_ray_m(grid, from, direction, range_max_m, is_set) == Approx(expected_m).margin(1e-12));
+    CHECK(cast_ray_m(grid, from, direction, range_max_m, is_wall) == Approx(expected_m).margin(1e-12));
   }
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("Rays along the axes, also from the face of a cell", "[sensor]") {
   grid.set({1, 3}, 1);
   grid.set({4, 8}, 1);
   const auto range_m = [&](double x_m, double y_m, double dx, double dy) {
-    return cast_ray_m(grid, Point<2>(x_m, y_m), Point<2>(dx, dy), 100.0, is_set);
+    return cast_ray_m(grid, Point<2>(x_m, y_m), Point<2>(dx, dy), 100.0, is_wall);
   };
   CHECK(range_m(2.25, 1.75, 1.0, 0.0) == Approx(1.25));
   CHECK(range_m(2.25, 1.75, -1.0, 0.0) == Approx(1.25));
@@ -92,9 +92,9 @@ TEST_CASE("Where a ray starts and how far it may go", "[sensor]") {
   Grid<std::uint8_t, 2> walled(Lattice<2>(0.5), {{0, 0}, {4, 4}}, 1);
   for (std::uint8_t& value : walled.values()) value = 0;
   const Point<2> diagonal = Point<2>(1.0, 1.0).normalized();
-  CHECK(cast_ray_m(walled, Point<2>(-0.1, 1.0), Point<2>(1.0, 0.0), 5.0, is_set) == 0.0);
-  CHECK(cast_ray_m(walled, Point<2>(1.0, 1.0), diagonal, 5.0, is_set) == Approx(std::sqrt(2.0)));
-  CHECK(cast_ray_m(walled, Point<2>(1.0, 1.0), diagonal, 1.4, is_set) == 1.4);
-  CHECK(cast_ray_m(walled, Point<2>(1.0, 1.2), Point<2>(1.0, 0.0), 1.0, is_set) == 1.0);
-  CHECK(cast_ray_m(walled, Point<2>(1.0, 1.2), Point<2>(1.0, 0.0), 0.0, is_set) == 0.0);
+  CHECK(cast_ray_m(walled, Point<2>(-0.1, 1.0), Point<2>(1.0, 0.0), 5.0, is_wall) == 0.0);
+  CHECK(cast_ray_m(walled, Point<2>(1.0, 1.0), diagonal, 5.0, is_wall) == Approx(std::sqrt(2.0)));
+  CHECK(cast_ray_m(walled, Point<2>(1.0, 1.0), diagonal, 1.4, is_wall) == 1.4);
+  CHECK(cast_ray_m(walled, Point<2>(1.0, 1.2), Point<2>(1.0, 0.0), 1.0, is_wall) == 1.0);
+  CHECK(cast_ray_m(walled, Point<2>(1.0, 1.2), Point<2>(1.0, 0.0), 0.0, is_wall) == 0.0);
 }
