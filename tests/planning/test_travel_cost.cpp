@@ -218,6 +218,30 @@ TEST_CASE("A tight passage is passed where there is no better way, and is no pla
   CHECK_FALSE(passes_gap(with_door));
 }
 
+TEST_CASE("Cells have room to spare from a cell beyond the clearance that the robot needs", "[planning]") {
+  Random random(12);
+  for (const double soft_m : {0.6, 0.1}) {
+    TravelParams params;
+    params.clearance_soft_m = soft_m;
+    OccupancyGrid<2> belief(Lattice<2>(0.1), {Index<2>(0, 0), Index<2>(60, 40)}, Occupancy::free);
+    for (int n = 0; n < 60; ++n) {
+      belief[static_cast<Offset>(random.index(belief.size()))] = n % 5 == 0 ? Occupancy::unknown : Occupancy::occupied;
+    }
+    const Grid<float, 2> clearance_m = clearance_of(belief);
+    const TravelCostField field(belief, clearance_m, {3.05, 2.05}, params);
+    int proper_only = 0;
+    for (Offset o = 0; o < static_cast<Offset>(belief.size()); ++o) {
+      const Index<2> cell = belief.index_at(o);
+      // The costs of clearances beyond the soft one are all the same.
+      const double roomy_m = std::min(soft_m, 0.22 + 0.1);
+      const bool is_roomy = field.is_proper(cell) && static_cast<double>(clearance_m[o]) >= roomy_m - 1e-6;
+      REQUIRE(field.is_roomy(cell) == is_roomy);
+      proper_only += field.is_proper(cell) && !is_roomy ? 1 : 0;
+    }
+    CHECK((proper_only > 100) == (soft_m > 0.3));
+  }
+}
+
 TEST_CASE("A robot that stands too near to a wall gets away and not back", "[planning]") {
   // Two rooms with a gap of 0.1 m between them, too narrow for the robot; it stands in the gap.
   const OccupancyGrid<2> belief = draw({"###############",  //

@@ -33,19 +33,12 @@ class CandidateSearch {
 
   /// Makes ways() those from a place. Where the robot has been, on the cells of its trail, its body fits, however tight the belief
   /// draws the place: no door closes behind it. Where it stands is left as drawn: from a tight place the search knows a way out,
-  /// from one with room that has none around it does not. What only may be a passage is none in a shut place. O(cells).
+  /// from one with room that has none around it does not. A shut place lets nothing pass but along the trail and where there is
+  /// room; if the robot stands in one and no way leads out, shut places are as others. O(cells).
   void search_ways(const OccupancyGrid<2>& occupancy, const std::vector<Index<2>>& trail, const ClosedCells<2>& closed,
                    const SetAsidePlaces& shut, const Eigen::Vector2d& from_m, const TravelParams& params) {
-    distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; }, clearance_m_);
-    const Index<2> here = occupancy.lattice().index_of(from_m);
-    for (const Index<2>& cell : trail) {
-      if (!clearance_m_.contains(cell) || equal(cell, here)) continue;
-      float& clearance_m = clearance_m_[clearance_m_.offset_of(cell)];
-      clearance_m = std::max(clearance_m, static_cast<float>(params.clearance_hard_m()));
-    }
-    if (!shut.empty()) shut_passages(occupancy, shut, params);
-    if (!closed.none()) keep_off(closed, params);
-    ways_.restart(occupancy, clearance_m_, from_m, params);
+    search_ways_past(shut, occupancy, trail, closed, from_m, params);
+    if (!shut.empty() && !ways_.reaches_any()) search_ways_past(SetAsidePlaces(), occupancy, trail, closed, from_m, params);
   }
 
   [[nodiscard]] const TravelCostField& ways() const { return ways_; }  ///< from the place that they were last made from
@@ -92,13 +85,29 @@ class CandidateSearch {
   }
 
  private:
-  void shut_passages(const OccupancyGrid<2>& occupancy, const SetAsidePlaces& shut, const TravelParams& params) {
-    const auto hard_m = static_cast<float>(params.clearance_hard_m());
-    const auto tight_m = static_cast<float>(params.clearance_tight_m(clearance_m_.resolution_m()));
+  void search_ways_past(const SetAsidePlaces& shut, const OccupancyGrid<2>& occupancy, const std::vector<Index<2>>& trail,
+                        const ClosedCells<2>& closed, const Eigen::Vector2d& from_m, const TravelParams& params) {
+    distance_transform_m(occupancy, [](Occupancy cell) { return cell == Occupancy::occupied; }, clearance_m_);
+    const Index<2> here = occupancy.lattice().index_of(from_m);
+    const float clearance_here_m = clearance_m_.value(here);
+    if (!shut.empty()) shut_passages(shut, occupancy, params);
+    for (const Index<2>& cell : trail) {
+      if (!clearance_m_.contains(cell)) continue;
+      float& clearance_m = clearance_m_[clearance_m_.offset_of(cell)];
+      clearance_m = std::max(clearance_m, static_cast<float>(params.clearance_hard_m()));
+    }
+    if (clearance_m_.contains(here)) clearance_m_.set(here, clearance_here_m);
+    if (!closed.none()) keep_off(closed, params);
+    ways_.restart(occupancy, clearance_m_, from_m, params);
+  }
+
+  /// None of their cells but those with room has any clearance, so that no escape leads across either.
+  void shut_passages(const SetAsidePlaces& shut, const OccupancyGrid<2>& occupancy, const TravelParams& params) {
+    const auto roomy_m = static_cast<float>(params.clearance_roomy_m(clearance_m_.resolution_m()));
     for (Offset cell = 0; cell < static_cast<Offset>(clearance_m_.size()); ++cell) {
       float& clearance_m = clearance_m_[cell];
-      if (clearance_m < tight_m || clearance_m >= hard_m) continue;
-      if (shut.contains(occupancy.lattice().center_m(clearance_m_.index_at(cell)), occupancy)) clearance_m = hardly_m();
+      if (clearance_m == 0.0F || clearance_m >= roomy_m) continue;
+      if (shut.contains(occupancy.lattice().center_m(clearance_m_.index_at(cell)), occupancy)) clearance_m = 0.0F;
     }
   }
 

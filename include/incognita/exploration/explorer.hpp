@@ -381,26 +381,26 @@ class Explorer {
   }
 
   /// A second retreat from the same passage, or on the way to the same goal where there is none, means that the robot does not get
-  /// through. Passages, not goals: there may be dozens of goals behind one.
+  /// through. Passages, not goals: there may be dozens of goals behind one. A further one, from a passage that is shut, is the goal's.
   void learn_from_retreat() {
     const OccupancyGrid<2>& occupancy = occupancy_.grid();
     const std::optional<Eigen::Vector2d> passage_m = passage_ahead_m();
     const Eigen::Vector2d place_m = passage_m.value_or(decision_.chosen()->frontier_m);
     if (!retreats_.contains(place_m, occupancy)) {
       retreats_.add(place_m, occupancy);
-    } else if (passage_m) {
+    } else if (passage_m && !shut_passages_.contains(place_m, occupancy)) {
       shut_passages_.add(place_m, occupancy);
     } else {
-      failed_ = place_m;
+      failed_ = decision_.chosen()->frontier_m;
     }
   }
 
-  /// Where the path ahead leads through cells that only may be a passage; none where it has room.
+  /// Where the path ahead leads through cells that may be too narrow; none where it has room.
   [[nodiscard]] std::optional<Eigen::Vector2d> passage_ahead_m() const {
     const double end_m = follower_.progress_m() + params_.follow.lookahead_m;
     for (double along_m = follower_.progress_m(); along_m < end_m; along_m += 0.5 * map().resolution_m()) {
       const Eigen::Vector2d place_m = follower_.path().point_at(along_m);
-      if (!search_.ways().is_proper(map().lattice().index_of(place_m))) return place_m;
+      if (!search_.ways().is_roomy(map().lattice().index_of(place_m))) return place_m;
     }
     return std::nullopt;
   }

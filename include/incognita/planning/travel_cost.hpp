@@ -44,7 +44,11 @@ struct TravelParams {
     return std::max(0.5 * resolution_m, robot_radius_m - 0.5 * std::numbers::sqrt2 * resolution_m);
   }
 
-  /// Of passing such cells: more than of any with the clearance, less than of escaping.
+  /// With this much or more the way has room. Between clearance_hard_m and this a belief whose walls are a cell off may call
+  /// wide enough what is not, so that a robot that does not get through learns from it.
+  [[nodiscard]] double clearance_roomy_m(double resolution_m) const { return clearance_hard_m() + resolution_m; }
+
+  /// Of passing cells with less than clearance_hard_m: more than of any with the clearance, less than of escaping.
   [[nodiscard]] double tight_cost_per_m() const { return 0.5 * (1.0 + clearance_weight + escape_cost_per_m); }
 
   /// Throws std::invalid_argument for values outside of their bounds.
@@ -100,6 +104,7 @@ class TravelCostField {
     start_m_ = start_m;
     proper_max_ = static_cast<float>(1.0 + params.clearance_weight);
     passable_max_ = static_cast<float>(params.tight_cost_per_m());
+    roomy_max_ = free_cost_per_m(static_cast<float>(params.clearance_roomy_m(occupancy.resolution_m())), params);
     no_stay_.clear();
     for (Grid<float, 2>* costs : {&cost_per_m_, &cost_m_}) costs->clear_to(box.padded(1));
     step_to_.clear_to(box.padded(1));
@@ -131,6 +136,7 @@ class TravelCostField {
     start_m_ = start_m;
     proper_max_ = most;
     passable_max_ = most;
+    roomy_max_ = most;
     no_stay_.clear();
     for (Grid<float, 2>* costs : {&cost_per_m_, &cost_m_}) costs->clear_to(box.padded(1));
     step_to_.clear_to(box.padded(1));
@@ -153,10 +159,18 @@ class TravelCostField {
   /// Whether a cell can be got to.
   [[nodiscard]] bool reaches(const Index<2>& index) const { return cost_m(index) < infinite; }
 
+  /// Whether any cell can be got to. O(cells) where none can.
+  [[nodiscard]] bool reaches_any() const {
+    return std::any_of(cost_m_.values().begin(), cost_m_.values().end(), [](float cost_m) { return cost_m < infinite; });
+  }
+
   /// Whether the robot has the clearance it needs in a cell.
   [[nodiscard]] bool is_proper(const Index<2>& index) const {
     return cost_per_m_.value(index) <= proper_max_;
   }
+
+  /// Whether the robot has room to spare in a cell (clearance_roomy_m). Where a cost of another kind was given, as is_proper.
+  [[nodiscard]] bool is_roomy(const Index<2>& index) const { return cost_per_m_.value(index) <= roomy_max_; }
 
   /// Whether ways may lead through a cell: a proper one, or one that may hide a passage.
   [[nodiscard]] bool is_passable(const Index<2>& index) const {
@@ -189,7 +203,7 @@ class TravelCostField {
   /// reaches nothing until restart.
   template <class Archive>
   void archive_state(Archive& archive) {
-    archive(start_m_, proper_max_, passable_max_, cost_per_m_);
+    archive(start_m_, roomy_max_, proper_max_, passable_max_, cost_per_m_);
     if constexpr (Archive::is_loading) {
       archive.claim(cost_per_m_.size(), sizeof(float) + 1);
       no_stay_.clear();
@@ -214,20 +228,22 @@ class TravelCostField {
     }
   }
 
+  [[nodiscard]] static float free_cost_per_m(float clearance_m, const TravelParams& params) {
+    const float lack = std::max(0.0F, 1.0F - clearance_m * static_cast<float>(1.0 / params.clearance_soft_m));
+    return 1.0F + static_cast<float>(params.clearance_weight) * lack * lack;
+  }
+
   void rate_cells(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m,
                   const TravelParams& params) {
     const auto hard_m = static_cast<float>(params.clearance_hard_m());
     const auto tight_m = static_cast<float>(params.clearance_tight_m(occupancy.resolution_m()));
-    const auto weight = static_cast<float>(params.clearance_weight);
-    const auto per_soft_m = static_cast<float>(1.0 / params.clearance_soft_m);
     const Offset width = occupancy.stride(1);
     for (Offset row = 0; row < static_cast<Offset>(occupancy.size()); row += width) {
       const Offset first = cost_per_m_.offset_of(occupancy.index_at(row));
       float* const rated = &cost_per_m_[first];
       for (Offset i = 0; i < width; ++i) {
-        const float lack = std::max(0.0F, 1.0F - clearance_m[row + i] * per_soft_m);
         const bool proper = occupancy[row + i] == Occupancy::free && clearance_m[row + i] >= hard_m;
-        rated[i] = proper ? 1.0F + weight * lack * lack : infinite;
+        rated[i] = proper ? free_cost_per_m(clearance_m[row + i], params) : infinite;
         if (proper || occupancy[row + i] != Occupancy::free || clearance_m[row + i] < tight_m) continue;
         rated[i] = passable_max_;
         no_stay_.push_back(first + i);
@@ -316,6 +332,7 @@ class TravelCostField {
 
   Eigen::Vector2d start_m_{0.0, 0.0};
   Index<2> start_{0, 0};
+  float roomy_max_ = 1.0F;     ///< no roomy cell costs more a metre, every other one does
   float proper_max_ = 1.0F;    ///< no proper cell costs more a metre, every other one does
   float passable_max_ = 1.0F;  ///< no passable cell costs more a metre, every place to escape from does
   // One ring of cells larger than the belief: it is never entered, so no step needs to look whether it leaves the grid.
