@@ -62,18 +62,20 @@ std::string result_of(Run&& run) {
 struct StudyFolder {
   std::filesystem::path path;
   std::optional<FolderLock> lock;
-  std::optional<ResultsFile> results;
-  std::optional<ResultsFile> costs;  ///< of the same units, and of some that were cut off before their row
+  std::optional<ResultsFile> results_file;
+  std::optional<ResultsFile> costs_file;  ///< of the same units, and of some that were cut off before their row
   std::vector<Row> rows;
+  Costs costs;
 
   StudyFolder(const Options& options, const ReadyStudy& ready) : path(options.output) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
     if (error) throw examples::OutputError("cannot write to " + path.string() + ": " + error.message());
     lock.emplace(path);
-    const std::filesystem::path results_file = path / "results.jsonl";
+    const std::filesystem::path results_path = path / "results.jsonl";
+    const std::filesystem::path costs_path = path / "costs.jsonl";
     const std::filesystem::path identity_file = path / "study.json";
-    const bool is_there = std::filesystem::exists(results_file, error) && std::filesystem::file_size(results_file, error) > 0;
+    const bool is_there = std::filesystem::exists(results_path, error) && std::filesystem::file_size(results_path, error) > 0;
     if (is_there && !options.resumes && !options.reports) {
       throw examples::OutputError(path.string() + " has results already: --resume goes on with them, or take another folder");
     }
@@ -86,9 +88,10 @@ struct StudyFolder {
       both.merge_patch(identity);
       identity = std::move(both);
     }
-    results.emplace(results_file);
-    costs.emplace(path / "costs.jsonl");
-    rows = parsed_rows(results->lines(), results_file.string());
+    results_file.emplace(results_path);
+    costs_file.emplace(costs_path);
+    rows = parsed_rows(results_file->lines(), results_path.string());
+    costs = parsed_costs(costs_file->lines(), costs_path.string());
     incognita::write_file_atomically(identity_file, identity.dump(1) + "\n");
   }
 };
@@ -106,8 +109,12 @@ void run_units(const Options& options, const ReadyStudy& ready, StudyFolder& fol
     const Unit& unit = ready.units[number];
     const std::size_t end = std::min(result.find('\n'), result.size());
     const std::string text = row_text(ready.study, unit, result.substr(0, end));
-    if (end < result.size()) folder.costs->append(row_text(ready.study, unit, result.substr(end + 1)));
-    folder.results->append(text);
+    if (end < result.size()) {
+      const std::string cost = row_text(ready.study, unit, result.substr(end + 1));
+      folder.costs_file->append(cost);
+      folder.costs.merge(parsed_costs({cost}, "a new row"));
+    }
+    folder.results_file->append(text);
     folder.rows.push_back(parsed_rows({text}, "a new row").front());
     const Row& row = folder.rows.back();
     progress.unit_done(ready.study.name_of(unit), row.has_failed() ? row.json["failed"].get<std::string>() : "");
@@ -134,7 +141,7 @@ void lead(const Options& options, const Ranks& ranks) {
   } else {
     run_units(options, *ready, *folder, ranks);
   }
-  write_report(ready->study, ready->arenas, folder->rows, folder->path);
+  write_report(ready->study, ready->arenas, folder->rows, folder->costs, folder->path);
   if (!options.quiet) std::printf("The report is %s\n", (folder->path / "report.md").string().c_str());
 }
 

@@ -74,20 +74,44 @@ namespace detail {
       ++endings[done.row->json.at("stop_reason").get<std::string>()];
     }
   }
-  std::string text = std::to_string(results.all().size()) + " of " + std::to_string(study.units().size()) + " missions are in this report. They ended as";
-  const char* separator = " ";
+  std::string text = std::to_string(results.all().size()) + " of " + std::to_string(study.units().size()) + " missions are in this report.";
+  const char* separator = " They ended as ";
   for (const auto& [reason, count] : endings) {
     text += separator + reason + " (" + std::to_string(count) + ")";
     separator = ", ";
   }
-  text += ".\n";
+  text += endings.empty() ? "\n" : ".\n";
   return failures.empty() ? text : text + "\nFailed, and in no table:\n\n" + failures;
+}
+
+/// What missions took: medians over the trials, of those that a cost is known of.
+[[nodiscard]] inline std::string costs_text(const Study& study, const Results& results, const Costs& costs) {
+  std::string text =
+      "Medians of the wall time, while as many missions ran side by side as the study had threads or ranks; a mission has one thread. All that it "
+      "does is in a scan's time: the simulator, the filter, the map, the decisions, and the metrics.\n\n"
+      "| map | method | missions | a mission, s | a scan, ms | the gains of a decision, ms | times real time |\n|---|---|---|---|---|---|---|\n";
+  for (std::size_t map = 0; map < study.maps.size(); ++map) {
+    for (std::size_t method = 0; method < study.methods.size(); ++method) {
+      std::map<std::string, std::vector<double>> values;
+      for (const Results::Done& done : results.of(map, method)) {
+        const auto cost = costs.find(done.row->key);
+        if (cost == costs.end()) continue;
+        for (const char* name : {"wall_s", "ms_per_scan", "ms_per_decision", "times_real_time"}) values[name].push_back(cost->second.at(name).get<double>());
+      }
+      if (values.empty()) continue;
+      text += "| " + study.maps[map].name + " | " + study.methods[method].name + " | " + std::to_string(values["wall_s"].size());
+      for (const char* name : {"wall_s", "ms_per_scan", "ms_per_decision", "times_real_time"}) text += " | " + digits(examples::median(values[name]));
+      text += " |\n";
+    }
+  }
+  return text;
 }
 
 }  // namespace detail
 
 /// Writes report.md and its pictures into a folder. Throws what drawing and writing throw; files appear when all are complete.
-inline void write_report(const Study& study, const std::vector<Arena>& arenas, const std::vector<Row>& rows, const std::filesystem::path& folder) {
+inline void write_report(const Study& study, const std::vector<Arena>& arenas, const std::vector<Row>& rows, const Costs& costs,
+                         const std::filesystem::path& folder) {
   const Results results(study, rows);
   examples::OutputFolder output(folder);
   std::string text = "# " + study.title + "\n\n" + detail::endings_text(study, results) + "\n| method | what |\n|---|---|\n";
@@ -119,6 +143,7 @@ inline void write_report(const Study& study, const std::vector<Arena>& arenas, c
     }
     picture("ways", "The way of each method's first trial", [&](const auto& file) { draw_ways(file, study, results, arenas[map], map); });
   }
+  if (!costs.empty()) text += "## Cost\n\n" + detail::costs_text(study, results, costs);
   incognita::write_file_atomically(output.staged("report.md"), text);
   output.publish();
 }

@@ -41,6 +41,11 @@ using UnitKey = std::tuple<std::string, std::string, int, int>;
   return text.substr(1, text.size() - 2);
 }
 
+/// Throws what nlohmann::json throws.
+[[nodiscard]] inline UnitKey key_in(const nlohmann::json& json) {
+  return {json.at("map").get<std::string>(), json.at("method").get<std::string>(), json.at("start").get<int>(), json.at("seed").get<int>()};
+}
+
 struct Row {
   UnitKey key;
   nlohmann::json json;
@@ -63,7 +68,7 @@ struct Row {
     const auto fail = [&](const std::string& problem) { throw incognita::InputError(file + ':' + std::to_string(n + 1), problem); };
     try {
       nlohmann::json json = nlohmann::json::parse(lines[n]);
-      UnitKey key{json.at("map").get<std::string>(), json.at("method").get<std::string>(), json.at("start").get<int>(), json.at("seed").get<int>()};
+      UnitKey key = key_in(json);
       if (!json.contains("failed")) static_cast<void>(json.at("metrics").at("explored_fraction").get<double>());
       if (!seen.insert(key).second) fail("is a row of a unit that has one already");
       rows.push_back({std::move(key), std::move(json)});
@@ -72,6 +77,24 @@ struct Row {
     }
   }
   return rows;
+}
+
+/// What each unit took.
+using Costs = std::map<UnitKey, nlohmann::json>;
+
+/// Of lines of costs.jsonl; where a unit has several, as it was run again, the last. Throws InputError, naming the line, for one that is none.
+[[nodiscard]] inline Costs parsed_costs(const std::vector<std::string>& lines, const std::string& file) {
+  Costs costs;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    try {
+      nlohmann::json json = nlohmann::json::parse(lines[n]);
+      for (const char* name : {"wall_s", "ms_per_scan", "ms_per_decision", "times_real_time"}) static_cast<void>(json.at(name).get<double>());
+      costs[key_in(json)] = std::move(json);
+    } catch (const nlohmann::json::exception& problem) {
+      throw incognita::InputError(file + ':' + std::to_string(n + 1), std::string("is not a row of costs: ") + problem.what());
+    }
+  }
+  return costs;
 }
 
 }  // namespace experiment

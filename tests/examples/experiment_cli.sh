@@ -12,6 +12,7 @@ source "$(dirname "$(realpath "$0")")/cli.sh"
 mkdir run
 cd run
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+data=${INCOGNITA_DATA_DIR:-}
 unset INCOGNITA_DATA_DIR
 
 # study NAME LINE...: a small study with lines of its own, which begin at line 20.
@@ -79,6 +80,19 @@ rm -f ./*.toml
 
 help_names help data resume report threads output quiet
 
+# What is shipped can be read, and has a report before its first mission; scaling, whose buildings take seconds to make, is alike.
+for shipped in quick alpha; do
+  "$program" $shipped --quiet --report --output "shipped_$shipped" >stdout 2>stderr || fail "$shipped: $(cat stderr)"
+  grep -q '^0 of [1-9][0-9]* missions are in this report\.$' "shipped_$shipped/report.md" || fail "$shipped: the report says something else"
+done
+if [ -d "$data" ]; then
+  for shipped in ablation ablation-paper; do
+    "$program" $shipped --quiet --report --data "$data" --output "shipped_$shipped" >stdout 2>stderr || fail "$shipped: $(cat stderr)"
+  done
+else
+  echo "experiment: the studies on floors of KTH are not read, as the data are missing"
+fi
+
 # rows FOLDER: in an order of their own.
 rows() { sort "$1/results.jsonl"; }
 
@@ -88,6 +102,7 @@ run_quietly one good.toml --threads 1
 run_quietly two good.toml --threads 2
 [ "$(wc -l <one/results.jsonl)" -eq 12 ] || fail "not a row for each of 12 units"
 [ "$(rows one)" = "$(rows two)" ] || fail "rows differ with the number of threads"
+grep -q '^| office | A5 | 4 | ' one/report.md || fail "the report does not say what missions took"
 for file in report.md study.json costs.jsonl office_curves.png office_boxes.png office_ways.png; do
   [ -s one/$file ] || fail "$file is missing or empty"
 done
