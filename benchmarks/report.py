@@ -104,6 +104,10 @@ def bars(results):
         value = results.median(NATIVE, program, name)
         return [(name, value * 1e3 if value else None)]
 
+    def thousands(program, name, what):
+        value = results.median(NATIVE, program, name, what)
+        return value / 1e3 if value else None
+
     def of_entropy(what, scale):
         """The worst measure of each kind of cells and size of map."""
         worst = {}
@@ -145,6 +149,10 @@ def bars(results):
          milliseconds("action_aware", "spaces")),
         ("Planning over 132 x 44 m of cells of 0.1 m, ms: viewpoints of all frontiers and what they see", "at most", 50.0,
          milliseconds("action_aware", "views")),
+        ("MPPI, thousands of samples a second on one thread, of 25 steps each", "at least", 400.0,
+         [("a way through an office", thousands("mppi", "command/1_threads", "samples_per_s"))]),
+        ("MPPI on one thread against two", "at least", 1.8,
+         [("a way through an office", results.ratio(NATIVE, "mppi", "command/1_threads", "command/2_threads"))]),
         ("A run with a recorder that is absent, against one without", "at most", 1.01,
          [("off", results.median(NATIVE, "observer", "run/off", "ratio"))]),
         ("A recorded run, against one without a recorder", "at most", 1.05,
