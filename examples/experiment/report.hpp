@@ -87,21 +87,28 @@ namespace detail {
 /// What missions took: medians over the trials, of those that a cost is known of.
 [[nodiscard]] inline std::string costs_text(const Study& study, const Results& results, const Costs& costs) {
   std::string text =
-      "Medians of the wall time, while as many missions ran side by side as the study had threads or ranks; a mission has one thread. All that it "
-      "does is in a scan's time: the simulator, the filter, the map, the decisions, and the metrics.\n\n"
-      "| map | method | missions | a mission, s | a scan, ms | the gains of a decision, ms | times real time |\n|---|---|---|---|---|---|---|\n";
+      "Medians of the time on the wall; a mission has one thread, and as many ran side by side as the study had threads or ranks.\n\n| map | "
+      "method | missions |";
+  std::string rule = "|---|---|---|";
+  for (const auto& [name, words] : cost_figures) {
+    text += std::string(" ") + words + " |";
+    rule += "---|";
+  }
+  text += '\n' + rule + '\n';
   for (std::size_t map = 0; map < study.maps.size(); ++map) {
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
-      std::map<std::string, std::vector<double>> values;
+      std::vector<const nlohmann::json*> known;
       for (const Results::Done& done : results.of(map, method)) {
-        const auto cost = costs.find(done.row->key);
-        if (cost == costs.end()) continue;
-        for (const char* name : {"wall_s", "ms_per_scan", "ms_per_decision", "times_real_time"}) values[name].push_back(cost->second.at(name).get<double>());
+        if (const auto cost = costs.find(done.row->key); cost != costs.end()) known.push_back(&cost->second);
       }
-      if (values.empty()) continue;
-      text += "| " + study.maps[map].name + " | " + study.methods[method].name + " | " + std::to_string(values["wall_s"].size());
-      for (const char* name : {"wall_s", "ms_per_scan", "ms_per_decision", "times_real_time"}) text += " | " + digits(examples::median(values[name]));
-      text += " |\n";
+      if (known.empty()) continue;
+      text += "| " + study.maps[map].name + " | " + study.methods[method].name + " | " + std::to_string(known.size()) + " |";
+      for (const auto& [name, words] : cost_figures) {
+        std::vector<double> values;
+        for (const nlohmann::json* cost : known) values.push_back(cost->at(name).get<double>());
+        text += ' ' + digits(examples::median(values)) + " |";
+      }
+      text += '\n';
     }
   }
   return text;

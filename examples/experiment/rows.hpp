@@ -1,6 +1,7 @@
 /// Rows of results.jsonl: which unit, and what it came to.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -79,6 +80,14 @@ struct Row {
   return rows;
 }
 
+/// What a row of costs says, and in which words.
+inline constexpr std::array<std::array<const char*, 2>, 6> cost_figures{{{"wall_s", "a mission, s"},
+                                                                        {"observe_ms_per_scan", "estimation and mapping, ms a scan"},
+                                                                        {"decide_ms_per_scan", "deciding, ms a scan"},
+                                                                        {"decide_ms_per_decision", "ms a decision"},
+                                                                        {"command_ms_per_scan", "steering, ms a scan"},
+                                                                        {"simulator_ms_per_scan", "simulator and metrics, ms a scan"}}};
+
 /// What each unit took.
 using Costs = std::map<UnitKey, nlohmann::json>;
 
@@ -88,7 +97,7 @@ using Costs = std::map<UnitKey, nlohmann::json>;
   for (std::size_t n = 0; n < lines.size(); ++n) {
     try {
       nlohmann::json json = nlohmann::json::parse(lines[n]);
-      for (const char* name : {"wall_s", "ms_per_scan", "ms_per_decision", "times_real_time"}) static_cast<void>(json.at(name).get<double>());
+      for (const auto& [name, words] : cost_figures) static_cast<void>(json.at(name).get<double>());
       costs[key_in(json)] = std::move(json);
     } catch (const nlohmann::json::exception& problem) {
       throw incognita::InputError(file + ':' + std::to_string(n + 1), std::string("is not a row of costs: ") + problem.what());

@@ -73,6 +73,18 @@ inline constexpr std::array<const char*, 6> recorded_metrics{"explored_fraction"
           progress.three_sigma_m,     progress.nees,                                   progress.distance_m};
 }
 
+/// What the explorer took of the time on the wall; the rest is the simulator's and the metrics'.
+struct ExplorerTimes {
+  double observe_s = 0.0;  ///< estimation and mapping
+  double decide_s = 0.0;
+  double command_s = 0.0;
+
+  template <class Archive>
+  void archive_state(Archive& archive) {
+    archive(observe_s, decide_s, command_s);
+  }
+};
+
 struct MissionParams {
   Eigen::Vector2d start_m;  ///< in the map file's frame
   double robot_radius_m;
@@ -104,6 +116,7 @@ struct MissionRecord {
   double explored_fraction = 0.0;
   double floor_area_m2 = 0.0;
   double wall_time_s = 0.0;
+  ExplorerTimes explorer_times;
   incognita::Twist2 command;  ///< the last of the exploration, held until the next scan
 
   /// The progress, to the second, when so much was explored; null when it never was.
@@ -116,7 +129,7 @@ struct MissionRecord {
   /// What an exploration adds to as it goes on; the rest is found in its end.
   template <class Archive>
   void archive_state(Archive& archive) {
-    archive(estimated, truth, decisions, progress, trajectory_error, nees, scans, wall_time_s, command);
+    archive(estimated, truth, decisions, progress, trajectory_error, nees, scans, wall_time_s, explorer_times, command);
   }
 };
 
@@ -166,7 +179,9 @@ template <class Explorer, class Steering, class AtEnd>
   };
   const auto recorded = [&] { return recorded_values(progress()); };
   const auto observe = [&] {
+    const Clock::time_point start = Clock::now();
     explorer.observe(simulator.scan());
+    record.explorer_times.observe_s += seconds_since(start);
     if (explorer.last_scan().is_redrawn) {
       information.rebuild(estimated_map(explorer));
     } else if (explorer.correction().trusted) {
@@ -177,8 +192,10 @@ template <class Explorer, class Steering, class AtEnd>
   // How long it took, when it was decided.
   const auto decide = [&]() -> std::optional<double> {
     const Clock::time_point start = Clock::now();
-    if (!explorer.decide()) return std::nullopt;
+    const bool has_decided = explorer.decide();
     const double took_s = seconds_since(start);
+    record.explorer_times.decide_s += took_s;
+    if (!has_decided) return std::nullopt;
     if (recorder != nullptr) recorder->decided(explorer);
     return took_s;
   };
@@ -199,13 +216,19 @@ template <class Explorer, class Steering, class AtEnd>
     record.estimated.push_back({simulator.time_s(), explorer.belief().pose});
     record.truth.push_back({simulator.time_s(), simulator.T_start_robot()});
   };
+  const auto steer = [&](Explorer& of, const Scan<2>& scan) {
+    const Clock::time_point start = Clock::now();
+    const Twist2 command = steering(of, scan);
+    record.explorer_times.command_s += seconds_since(start);
+    return command;
+  };
   const auto on_scan = [&] {
     observe_and_decide();
     remember_poses();
   };
   if (simulator.steps() == 0) {
     on_scan();
-    record.command = steering(explorer, simulator.scan());
+    record.command = steer(explorer, simulator.scan());
   }
   drive_on(explorer, simulator, record.command, params.duration_s, on_scan, [&] {
     const Pose2 truth = simulator.T_start_robot();
@@ -215,7 +238,7 @@ template <class Explorer, class Steering, class AtEnd>
       record.progress.push_back(progress());
       if (report) report(record.progress.back());
     }
-  }, steering);
+  }, steer);
   record.wall_time_s += seconds_since(begin);
   at_end(record);
   const ProgressRecord last = progress();
@@ -244,7 +267,7 @@ template <class Explorer, class Steering, class AtEnd>
       decide();
       remember_poses();
     };
-    drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {}, steering);
+    drive(explorer, simulator, simulator.time_s() + longest_s, observe_and_go_on, [] {}, steer);
     record.has_returned = explorer.stopped() == StopReason::returned;
     record.return_distance_m = simulator.distance_m() - record.distance_m;
   }
