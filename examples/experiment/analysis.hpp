@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -54,20 +55,25 @@ class Results {
     return values;
   }
 
-  /// value of `a` - value of `b` for each start and seed that both have, on a map or, for none, on all.
-  [[nodiscard]] std::vector<double> differences(std::optional<std::size_t> map, std::size_t a, std::size_t b,
-                                                const std::string& metric) const {
-    std::map<std::tuple<std::size_t, int, int>, double> of_b;
+  /// What `better` has beyond `worse` for each start and seed of a group that has both, on one map.
+  [[nodiscard]] std::vector<double> differences(std::size_t map, const Claim& claim, const TrialGroup& group) const {
+    std::map<std::tuple<std::size_t, int, int>, double> known;
+    for (const Done& done : units_) {
+      if (done.unit.map != map || !has(group, done.unit)) continue;
+      if (const auto value = done.row->metric(claim.metric)) known[{done.unit.method, done.unit.start, done.unit.seed}] = *value;
+    }
     std::vector<double> differences;
-    for (std::size_t m = 0; m < study_.maps.size(); ++m) {
-      if (map && *map != m) continue;
-      for (const Done& done : of(m, b)) {
-        if (const auto value = done.row->metric(metric)) of_b[{m, done.unit.start, done.unit.seed}] = *value;
-      }
-      for (const Done& done : of(m, a)) {
-        const auto value = done.row->metric(metric);
-        const auto other = of_b.find({m, done.unit.start, done.unit.seed});
-        if (value && other != of_b.end()) differences.push_back(*value - other->second);
+    for (const int start : group.starts) {
+      for (const int seed : group.seeds) {
+        const auto value_of = [&](const Side& side) -> std::optional<double> {
+          const auto first = known.find({side.front(), start, seed});
+          const auto last = known.find({side.back(), start, seed});
+          if (first == known.end() || last == known.end()) return std::nullopt;
+          return side.size() == 1 ? first->second : std::abs(first->second - last->second);
+        };
+        const auto better = value_of(claim.better);
+        const auto worse = value_of(claim.worse);
+        if (better && worse) differences.push_back(*better - *worse);
       }
     }
     return differences;
@@ -91,29 +97,26 @@ struct Judgement {
   examples::MeanInterval difference;  ///< better - worse
 };
 
-/// A claim holds where the whole interval of the mean paired difference is on its side of 0, does not where it is on the other side, and
-/// is undecided where 0 is within, or there are fewer than three pairs.
-[[nodiscard]] inline Judgement judge(const Claim& claim, const Study& study, const Results& results, std::optional<std::size_t> map) {
-  const auto method_of = [&](const std::string& name) {
-    std::size_t n = 0;
-    while (study.methods[n].name != name) ++n;
-    return n;
-  };
-  const std::vector<double> differences = results.differences(map, method_of(claim.better), method_of(claim.worse), claim.metric);
+/// By the differences on the same starts and seeds, of each map that is judged. A claim holds where the whole interval of their mean is on its
+/// side of 0, does not where it is on the other side, and is undecided where 0 is within, or where there are too few pairs for an interval.
+[[nodiscard]] inline Judgement judge(const Claim& claim, const std::vector<std::vector<double>>& differences_of_maps) {
   Judgement judgement;
-  judgement.pairs = differences.size();
-  if (differences.size() < 3) return judgement;
-  judgement.difference = examples::bootstrapped_mean(differences);
-  const bool is_below = judgement.difference.high < 0.0;
-  const bool is_above = judgement.difference.low > 0.0;
-  if (is_below || is_above) judgement.verdict = is_below == claim.is_less ? Verdict::holds : Verdict::does_not_hold;
+  const bool lacks_map = std::any_of(differences_of_maps.begin(), differences_of_maps.end(), [](const auto& of_map) { return of_map.empty(); });
+  if (differences_of_maps.empty() || lacks_map) return judgement;
+  for (const std::vector<double>& differences : differences_of_maps) judgement.pairs += differences.size();
+  judgement.difference = examples::bootstrapped_mean(differences_of_maps);
+  if (const auto& interval = judgement.difference.interval) {
+    const bool is_below = interval->high < 0.0;
+    const bool is_above = interval->low > 0.0;
+    if (is_below || is_above) judgement.verdict = is_below == claim.is_less ? Verdict::holds : Verdict::does_not_hold;
+  }
   return judgement;
 }
 
 [[nodiscard]] inline const char* words_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::holds: return "holds";
-    case Verdict::does_not_hold: return "does not hold: the opposite does";
+    case Verdict::does_not_hold: return "the opposite";
     case Verdict::undecided: return "undecided";
   }
   return "";

@@ -41,13 +41,13 @@ namespace detail {
 
 }  // namespace detail
 
-/// Medians over time with a band from quartile to quartile, a panel a metric.
+/// Medians over time with a band from quartile to quartile, a panel a metric, of the first group of trials.
 inline void draw_curves(const std::filesystem::path& file, const Study& study, const Results& results, std::size_t map) {
   std::vector<examples::Chart> panels;
   for (const std::string& metric : study.curves) {
     examples::Chart panel{.title = study.maps[map].name, .x_label = "time (s)", .y_label = metric};
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
-      const std::vector<Results::Done> rows = results.of(map, method);
+      const std::vector<Results::Done> rows = results.of(map, method, &study.trials.front());
       if (rows.empty()) continue;
       const double step_s = rows.front().row->json.at("curves").at("step_s").get<double>();
       examples::Series curve{.name = study.methods[method].name, .color = detail::color_of(method),
@@ -69,7 +69,7 @@ inline void draw_curves(const std::filesystem::path& file, const Study& study, c
   examples::write_chart_png(file, panels, {.columns = 2});
 }
 
-/// A box for each method, a panel a metric.
+/// A box for each method, a panel a metric, of the first group of trials.
 inline void draw_boxes(const std::filesystem::path& file, const Study& study, const Results& results, std::size_t map) {
   std::vector<examples::Chart> panels;
   for (const std::string& metric : study.tables) {
@@ -77,7 +77,7 @@ inline void draw_boxes(const std::filesystem::path& file, const Study& study, co
                           .x_range = {{0.5, static_cast<double>(study.methods.size()) + 0.5}}, .legend = "off", .lines_below = 3.5};
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
       panel.names.push_back(study.methods[method].name);
-      examples::add_box(panel, static_cast<double>(method + 1), results.values(map, method, metric), detail::color_of(method), "#999999");
+      examples::add_box(panel, static_cast<double>(method + 1), results.values(map, method, metric, &study.trials.front()), detail::color_of(method), "#999999");
     }
     if (!panel.series.empty()) panels.push_back(std::move(panel));
   }

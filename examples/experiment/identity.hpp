@@ -28,6 +28,7 @@ namespace experiment {
   for (std::size_t map = 0; map < study.maps.size(); ++map) {
     nlohmann::json& of_map = json[study.maps[map].name];
     of_map["checksum"] = arenas[map].checksum;
+    of_map["corridor_max_m"] = study.maps[map].corridor_max_m ? nlohmann::json(*study.maps[map].corridor_max_m) : nlohmann::json();
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
       of_map["methods"][study.methods[method].name] = settings_json(study.settings_of({map, method, 1, 1}));
     }
@@ -40,7 +41,9 @@ namespace experiment {
 inline void require_same(const nlohmann::json& before, const nlohmann::json& now, const std::filesystem::path& file) {
   for (const auto& [map, of_map] : before.items()) {
     if (!now.contains(map)) continue;
-    if (of_map.at("checksum") != now[map]["checksum"]) throw incognita::InputError(file, "the map " + map + " is another than when its rows were made");
+    for (const char* key : {"checksum", "corridor_max_m"}) {
+      if (of_map.at(key) != now[map][key]) throw incognita::InputError(file, "the map " + map + " has another " + key + " than when its rows were made");
+    }
     for (const auto& [method, settings] : of_map.at("methods").items()) {
       if (!now[map]["methods"].contains(method)) continue;
       const nlohmann::json& settings_now = now[map]["methods"][method];

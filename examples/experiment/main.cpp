@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/arena.hpp"
@@ -24,6 +25,7 @@
 #include "experiment/work.hpp"
 #include "incognita/core/parallel.hpp"
 #include "incognita/io/atomic_file.hpp"
+#include "incognita/io/checksum.hpp"
 #include "support/program.hpp"
 
 namespace experiment {
@@ -38,6 +40,31 @@ struct ReadyStudy {
   explicit ReadyStudy(const Options& options) : study(read_study(study_file(options.study, INCOGNITA_STUDIES_DIR), options.data)) {
     for (const StudyMap& map : study.maps) arenas.emplace_back(map);
     units = study.units();
+    require_possible_units();
+  }
+
+  /// What every rank must have alike: the settings, the maps and the units.
+  [[nodiscard]] std::string fingerprint() const {
+    std::string all = identity_json(study, arenas).dump();
+    for (const Unit& unit : units) all += study.name_of(unit) + '\n';
+    return "study " + std::to_string(incognita::checksum(all));
+  }
+
+  /// Throws InputError, naming the line of the method, where a mission could not even begin.
+  void require_possible_units() const {
+    std::set<std::pair<std::size_t, double>> tried;
+    for (std::size_t map = 0; map < study.maps.size(); ++map) {
+      for (std::size_t method = 0; method < study.methods.size(); ++method) {
+        const Settings& settings = study.settings_of({map, method, 1, 1});
+        try {
+          require_possible(settings);
+          if (tried.emplace(map, settings.robot_radius_m).second) static_cast<void>(start_of_trial(arenas[map], settings, 1));
+        } catch (const std::exception& problem) {
+          throw incognita::InputError(study.file.string() + ':' + std::to_string(study.methods[method].line),
+                                      study.methods[method].name + " on " + study.maps[map].name + ": " + problem.what());
+        }
+      }
+    }
   }
 
   /// Two lines: the result, and what it took.
@@ -47,16 +74,6 @@ struct ReadyStudy {
     return text.result + '\n' + text.cost;
   }
 };
-
-/// What run() returns, or why it has failed.
-template <class Run>
-std::string result_of(Run&& run) {
-  try {
-    return run();
-  } catch (const std::exception& error) {
-    return failure_text(error.what());
-  }
-}
 
 /// The folder of a study: its results so far, and the lock.
 struct StudyFolder {
@@ -98,12 +115,16 @@ struct StudyFolder {
 
 void run_units(const Options& options, const ReadyStudy& ready, StudyFolder& folder, const Ranks& ranks) {
   std::set<UnitKey> done;
-  for (const Row& row : folder.rows) done.insert(row.key);
+  std::size_t failed = 0;
+  for (const Row& row : folder.rows) {
+    done.insert(row.key);
+    failed += row.has_failed() ? 1 : 0;
+  }
   Work work;
   for (std::size_t number = 0; number < ready.units.size(); ++number) {
     if (!done.contains(key_of(ready.study, ready.units[number]))) work.units.push_back(number);
   }
-  Progress progress(ready.units.size() - work.units.size(), ready.units.size(), options.quiet);
+  Progress progress(ready.units.size() - work.units.size(), failed, ready.units.size(), options.quiet);
   work.run = [&](std::size_t number) { return result_of([&] { return ready.run(number); }); };
   work.done = [&](std::size_t number, const std::string& result) {
     const Unit& unit = ready.units[number];
@@ -112,7 +133,7 @@ void run_units(const Options& options, const ReadyStudy& ready, StudyFolder& fol
     if (end < result.size()) {
       const std::string cost = row_text(ready.study, unit, result.substr(end + 1));
       folder.costs_file->append(cost);
-      folder.costs.merge(parsed_costs({cost}, "a new row"));
+      for (auto& [key, figures] : parsed_costs({cost}, "a new row")) folder.costs.insert_or_assign(key, figures);
     }
     folder.results_file->append(text);
     folder.rows.push_back(parsed_rows({text}, "a new row").front());
@@ -120,8 +141,8 @@ void run_units(const Options& options, const ReadyStudy& ready, StudyFolder& fol
     progress.unit_done(ready.study.name_of(unit), row.has_failed() ? row.json["failed"].get<std::string>() : "");
   };
   // Under mpirun, each rank takes one unit at a time: who wants more starts more ranks.
-  const int threads = options.threads == 0 && ranks.count() > 1 ? 1 : incognita::worker_count(options.threads);
-  give_out(work, ranks, threads);
+  const int threads = options.threads > 0 ? options.threads : ranks.count() > 1 ? 1 : incognita::worker_count(0);
+  give_out(work, ranks, ready.fingerprint(), threads);
 }
 
 /// Rank 0, and whoever is alone.
@@ -133,11 +154,11 @@ void lead(const Options& options, const Ranks& ranks) {
     ready.emplace(options);
     folder.emplace(options, *ready);
   } catch (...) {
-    give_out({}, ranks, 0);  // the other ranks wait to be told that there is nothing to do
+    send_home(ranks);
     throw;
   }
   if (options.reports) {
-    give_out({}, ranks, 0);
+    send_home(ranks);
   } else {
     run_units(options, *ready, *folder, ranks);
   }
@@ -145,16 +166,17 @@ void lead(const Options& options, const Ranks& ranks) {
   if (!options.quiet) std::printf("The report is %s\n", (folder->path / "report.md").string().c_str());
 }
 
-/// Any other rank. It reads the study when it is given something to do, so that what is wrong with it is said once, by rank 0.
+/// Any other rank. What is wrong with the study is said by rank 0; what is wrong here alone, is said to it.
 void follow(const Options& options, const Ranks& ranks) {
   std::optional<ReadyStudy> ready;
-  const auto run = [&](std::size_t number) {
-    return result_of([&] {
-      if (!ready) ready.emplace(options);
-      return ready->run(number);
-    });
-  };
-  work_for_rank_0(run, ranks);
+  std::string myself;
+  try {
+    ready.emplace(options);
+    myself = ready->fingerprint();
+  } catch (const std::exception& problem) {
+    myself = problem.what();
+  }
+  work_for_rank_0(myself, [&](std::size_t number) { return result_of([&] { return ready->run(number); }); }, ranks);
 }
 
 void run(const Options& options, const Ranks& ranks) { ranks.rank() == 0 ? lead(options, ranks) : follow(options, ranks); }

@@ -13,7 +13,8 @@ namespace experiment {
 /// On a terminal one line that is drawn over, elsewhere one a minute; failures on lines of their own.
 class Progress {
  public:
-  Progress(std::size_t done, std::size_t all, bool quiet) : before_(done), done_(done), all_(all), quiet_(quiet) {}
+  /// `done` and, of these, `failed` are those of before.
+  Progress(std::size_t done, std::size_t failed, std::size_t all, bool quiet) : before_(done), done_(done), all_(all), quiet_(quiet), failed_(failed) {}
 
   void unit_done(const std::string& unit, const std::string& failure) {
     ++done_;
@@ -40,7 +41,7 @@ class Progress {
   std::size_t done_;
   std::size_t all_;
   bool quiet_;
-  std::size_t failed_ = 0;
+  std::size_t failed_;
   Clock::time_point begin_ = Clock::now();
   Clock::time_point shown_ = begin_;
 };

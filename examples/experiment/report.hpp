@@ -1,6 +1,7 @@
 /// The report of a study, as Markdown beside its pictures.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -24,11 +25,12 @@ namespace detail {
   return text;
 }
 
-[[nodiscard]] inline std::string interval_text(const examples::MeanInterval& interval) {
-  return digits(interval.mean) + " [" + digits(interval.low) + ", " + digits(interval.high) + ']';
+[[nodiscard]] inline std::string interval_text(const examples::MeanInterval& mean) {
+  if (!mean.interval) return digits(mean.mean);
+  return digits(mean.mean) + " [" + digits(mean.interval->low) + ", " + digits(mean.interval->high) + ']';
 }
 
-/// The methods' means with their intervals, and the medians.
+/// The methods' means with their intervals, and the medians; how many missions have a value, where not all have.
 [[nodiscard]] inline std::string table_text(const Study& study, const Results& results, std::size_t map, const TrialGroup& group) {
   std::string text = "| method | missions |";
   for (const std::string& metric : study.tables) text += ' ' + metric + " |";
@@ -36,31 +38,57 @@ namespace detail {
   for (std::size_t n = 0; n < study.tables.size(); ++n) text += "---|";
   text += '\n';
   for (std::size_t method = 0; method < study.methods.size(); ++method) {
-    text += "| " + study.methods[method].name + " | " + std::to_string(results.of(map, method, &group).size()) + " |";
+    const std::size_t missions = results.of(map, method, &group).size();
+    text += "| " + study.methods[method].name + " | " + std::to_string(missions) + " |";
     for (const std::string& metric : study.tables) {
       const std::vector<double> values = results.values(map, method, metric, &group);
-      text += values.empty() ? " |" : ' ' + interval_text(examples::bootstrapped_mean(values)) + ", median " + digits(examples::median(values)) + " |";
+      if (!values.empty()) text += ' ' + interval_text(examples::bootstrapped_mean(values)) + ", median " + digits(examples::median(values));
+      if (values.size() < missions) text += " (of " + std::to_string(values.size()) + ')';
+      text += " |";
     }
     text += '\n';
   }
   return text;
 }
 
+/// A table for each group of trials: a row a claim, a column a map.
 [[nodiscard]] inline std::string claims_text(const Study& study, const Results& results) {
   std::string text =
-      "A claim holds where the 95 % bootstrap interval of the mean difference, on the same starts and seeds, is on its side of 0.\n\n"
-      "| claim | difference of | on | pairs | mean [95 %] | |\n|---|---|---|---|---|---|\n";
-  for (const Claim& claim : study.claims) {
-    const auto row = [&](const std::string& where, std::optional<std::size_t> map) {
-      const Judgement judgement = judge(claim, study, results, map);
-      text += "| " + claim.says + " | " + claim.metric + ", " + claim.better + " - " + claim.worse + " | " + where + " | " +
-              std::to_string(judgement.pairs) + " | " + (judgement.pairs < 3 ? "" : interval_text(judgement.difference)) + " | **" +
-              words_of(judgement.verdict) + "** |\n";
-    };
-    for (std::size_t map = 0; map < study.maps.size(); ++map) row(study.maps[map].name, map);
-    if (study.maps.size() > 1) row("all maps", std::nullopt);
+      "By differences on the same starts and seeds: a claim **holds** where the 95 % bootstrap interval of their mean is on its side of 0, the "
+      "**opposite** does where it is on the other; else, and with fewer than " +
+      std::to_string(examples::interval_values_min) +
+      " pairs on a map, it is undecided. Where nothing is true, one interval in twenty still leaves 0 out. All maps count alike, whatever their "
+      "size.\n\n";
+  for (const TrialGroup& group : study.trials) {
+    text += "Trials \"" + group.name + "\":\n\n| claim | difference of |";
+    std::string rule = "|---|---|";
+    for (const StudyMap& map : study.maps) {
+      text += ' ' + map.name + " |";
+      rule += "---|";
+    }
+    text += " all maps |\n" + rule + "---|\n";
+    for (const Claim& claim : study.claims) {
+      text += "| " + claim.says + " | " + claim.metric + ", " + study.name_of(claim.better) + " - " + study.name_of(claim.worse) + " |";
+      const auto cell = [&](const std::vector<std::vector<double>>& differences) {
+        const Judgement judgement = judge(claim, differences);
+        text += std::string(" **") + words_of(judgement.verdict) + "** " + (judgement.pairs > 0 ? interval_text(judgement.difference) + ", " : "") +
+                std::to_string(judgement.pairs) + " pairs |";
+      };
+      std::vector<std::vector<double>> of_all;
+      for (std::size_t map = 0; map < study.maps.size(); ++map) {
+        if (std::find(claim.maps.begin(), claim.maps.end(), map) == claim.maps.end()) {
+          text += " |";
+          continue;
+        }
+        of_all.push_back(results.differences(map, claim, group));
+        cell({of_all.back()});
+      }
+      cell(of_all);
+      text += '\n';
+    }
+    text += '\n';
   }
-  return text + '\n';
+  return text;
 }
 
 /// Why missions have ended, and what has failed.
@@ -137,16 +165,17 @@ inline void write_report(const Study& study, const std::vector<Arena>& arenas, c
     for (const TrialGroup& group : study.trials) {
       text += "Trials \"" + group.name + "\", means [95 % bootstrap intervals]:\n\n" + detail::table_text(study, results, map, group) + '\n';
     }
+    const std::string of_group = ", of the trials \"" + study.trials.front().name + "\"";
     const auto picture = [&](const std::string& kind, const std::string& says, auto&& draw) {
       const std::string file = name + '_' + kind + ".png";
       draw(output.staged(file));
       text += "![" + says + "](" + file + ")\n\n";
     };
     if (!study.curves.empty()) {
-      picture("curves", "Medians over time, from quartile to quartile", [&](const auto& file) { draw_curves(file, study, results, map); });
+      picture("curves", "Medians over time, from quartile to quartile" + of_group, [&](const auto& file) { draw_curves(file, study, results, map); });
     }
     if (!study.tables.empty()) {
-      picture("boxes", "Boxes from quartile to quartile, whiskers to the extremes", [&](const auto& file) { draw_boxes(file, study, results, map); });
+      picture("boxes", "Boxes from quartile to quartile, whiskers to the extremes" + of_group, [&](const auto& file) { draw_boxes(file, study, results, map); });
     }
     picture("ways", "The way of each method's first trial", [&](const auto& file) { draw_ways(file, study, results, arenas[map], map); });
   }

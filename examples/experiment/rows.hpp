@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <exception>
 #include <map>
 #include <optional>
 #include <set>
@@ -40,6 +41,16 @@ using UnitKey = std::tuple<std::string, std::string, int, int>;
 [[nodiscard]] inline std::string failure_text(const std::string& reason) {
   const std::string text = nlohmann::ordered_json{{"failed", reason}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return text.substr(1, text.size() - 2);
+}
+
+/// What run() returns, or why it has failed.
+template <class Run>
+[[nodiscard]] std::string result_of(Run&& run) {
+  try {
+    return run();
+  } catch (const std::exception& error) {
+    return failure_text(error.what());
+  }
 }
 
 /// Throws what nlohmann::json throws.

@@ -25,6 +25,7 @@ struct Settings {
   double gamma = 480.0;                ///< of registration, or of the ray form
   double filter_occupied_m = 0.1;      ///< the root of R_o
   double filter_unoccupied_m = 3.0;    ///< the root of R_u
+  std::string imagined_tempering = "beams";  ///< what imagined scans are divided by; hits is (11)
   bool compass = true;                 ///< headings from walls
   double heading_sigma_rad = 0.0;      ///< of a heading that is measured at each scan; 0: none is
 
@@ -80,6 +81,7 @@ struct Field {
       Field{"gamma", &Settings::gamma, {tiny, 1e9}},
       Field{"filter_occupied_m", &Settings::filter_occupied_m, {1e-6, 100}},
       Field{"filter_unoccupied_m", &Settings::filter_unoccupied_m, {1e-6, 1000}},
+      Field{"imagined_tempering", &Settings::imagined_tempering, {}, {"beams", "hits"}},
       Field{"compass", &Settings::compass},
       Field{"heading_sigma_rad", &Settings::heading_sigma_rad, {0, 1}},
       Field{"entropy", &Settings::entropy, {}, {"behavioral", "shannon", "renyi", "tsallis"}},

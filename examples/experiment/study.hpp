@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -21,12 +22,13 @@ struct StudyMap {
   double width_m = 0.0;             ///< of one that is generated
   double height_m = 0.0;            ///< likewise
   std::uint64_t plan_seed = 1;      ///< likewise
-  double door_max_m = 1.2;          ///< the widest door: what is wider is no border between rooms and corridors
+  std::optional<double> corridor_max_m;  ///< floor that is no wider may be a corridor; none where nothing is asked of corridors
 };
 
 struct StudyMethod {
   std::string name;
   std::string what;  ///< in words
+  int line = 0;      ///< of the study's file
 };
 
 /// Every start with every seed. Start n is the n-th pose drawn on the map, seed n the noise of sensors and odometry.
@@ -36,13 +38,17 @@ struct TrialGroup {
   std::vector<int> seeds;
 };
 
-/// That one method has less (or more) of something than another.
+/// What a claim compares: what one method has of a metric, or by how much two differ, without sign.
+using Side = std::vector<std::size_t>;
+
+/// That one side has less (or more) of something than another.
 struct Claim {
   std::string says;
   std::string metric;
-  std::string better;   ///< the method that is said to have less, or more ...
-  std::string worse;    ///< ... than this one
+  Side better;  ///< what is said to have less, or more ...
+  Side worse;   ///< ... than this
   bool is_less = true;
+  std::vector<std::size_t> maps;  ///< where it is said to hold
 };
 
 /// One mission: indices into the study, and which trial.
@@ -63,6 +69,12 @@ struct Study {
   std::vector<std::string> tables;  ///< metrics
   std::vector<std::string> curves;  ///< what is drawn over time
   std::vector<Settings> settings;   ///< of each map with each method, the methods of a map one after the other
+
+  /// "A5", or "|A5 - A4|".
+  [[nodiscard]] std::string name_of(const Side& side) const {
+    const std::string& first = methods[side.front()].name;
+    return side.size() == 1 ? first : '|' + first + " - " + methods[side.back()].name + '|';
+  }
 
   [[nodiscard]] const Settings& settings_of(const Unit& unit) const { return settings[unit.map * methods.size() + unit.method]; }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -28,7 +29,7 @@ class StudyReader {
   StudyReader(std::filesystem::path file, std::filesystem::path data) : file_(std::move(file)), data_(std::move(data)) {}
 
   [[nodiscard]] Study read() {
-    const toml::table root = parsed();
+    const toml::table root = with_what_it_is_like(parsed(file_));
     allow(root, {"title", "defaults", "map", "method", "trials", "claim", "report"});
     study_.file = file_;
     study_.title = text(root, root, "title");
@@ -53,8 +54,8 @@ class StudyReader {
       const toml::table* report = node->as_table();
       if (report == nullptr) fail(*node, "report is not a table");
       allow(*report, {"tables", "curves"});
-      study_.tables = names(*report, "tables", table_metrics());
-      study_.curves = names(*report, "curves", curve_metrics());
+      study_.tables = metrics(*report, "tables", table_metrics());
+      study_.curves = metrics(*report, "curves", curve_metrics());
     }
     return study_;
   }
@@ -62,8 +63,8 @@ class StudyReader {
   /// What a finished mission is measured by, and what is recorded as it goes on.
   [[nodiscard]] static const std::vector<std::string>& table_metrics() {
     static const std::vector<std::string> all{
-        "translation_rmse_m", "translation_mae_m", "heading_rmse_rad", "nees",      "map_error",  "bits_per_step", "explored_fraction",
-        "explored_share_of_time", "time_to_90_percent_s", "distance_m", "decisions", "collisions", "corridor_share"};
+        "translation_rmse_m", "translation_mae_m", "heading_rmse_rad", "nees", "map_error", "bits_per_step", "explored_fraction",
+        "explored_share_of_time", "end_s", "time_to_90_percent_s", "distance_m", "decisions", "collisions", "corridor_share"};
     return all;
   }
   [[nodiscard]] static const std::vector<std::string>& curve_metrics() {
@@ -74,15 +75,32 @@ class StudyReader {
  private:
   [[noreturn]] void fail(const toml::node& where, const std::string& problem) const { fail(where.source(), problem); }
   [[noreturn]] void fail(const toml::source_region& where, const std::string& problem) const {
-    throw incognita::InputError(file_.string() + ':' + std::to_string(where.begin.line), problem);
+    const std::string file = where.path ? *where.path : file_.string();
+    throw incognita::InputError(file + ':' + std::to_string(where.begin.line), problem);
   }
 
-  [[nodiscard]] toml::table parsed() const {
+  [[nodiscard]] toml::table parsed(const std::filesystem::path& file) const {
     try {
-      return toml::parse(incognita::read_file(file_, 1'000'000), file_.string());
+      return toml::parse(incognita::read_file(file, 1'000'000), file.string());
     } catch (const toml::parse_error& problem) {
       fail(problem.source(), std::string("is not TOML: ") + std::string(problem.description()));
     }
+  }
+
+  /// Each part that a study lacks is that of the one beside it that it is like.
+  [[nodiscard]] toml::table with_what_it_is_like(toml::table own) const {
+    if (!own.contains("like")) return own;
+    const std::string like = text(own, "like");
+    const std::filesystem::path file = file_.parent_path() / (like + ".toml");
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) fail(*own.get("like"), "there is no study " + quoted(like) + " beside this one");
+    toml::table whole = parsed(file);
+    if (whole.contains("like")) fail(*own.get("like"), "like names a study that is like another itself");
+    own.erase("like");
+    for (auto&& [key, value] : own) {
+      value.visit([&whole, &key](const auto& node) { whole.insert_or_assign(key, node); });
+    }
+    return whole;
   }
 
   static std::string quoted(std::string_view word) { return incognita::shown(word); }
@@ -192,6 +210,12 @@ class StudyReader {
     }
   }
 
+  void set_all(Settings& settings, const toml::table& table) const {
+    for (auto&& [key, value] : table) {
+      if (const Field* field = find_field(key.str())) set(settings, *field, value);
+    }
+  }
+
   void add_map(const toml::table& table) {
     StudyMap map;
     map.name = name(table);
@@ -201,7 +225,9 @@ class StudyReader {
     if (is_read == !map.plan.empty()) fail(table, "the map " + quoted(map.name) + " must have either a file or a plan");
     if (is_read) {
       const std::filesystem::path given = text(table, "file");
-      for (const std::filesystem::path& folder : {file_.parent_path(), data_}) {
+      std::vector<std::filesystem::path> folders{file_.parent_path()};
+      if (!data_.empty()) folders.push_back(data_);
+      for (const std::filesystem::path& folder : folders) {
         std::error_code error;
         if (map.file.empty() && std::filesystem::is_regular_file(folder / given, error)) map.file = folder / given;
       }
@@ -220,9 +246,9 @@ class StudyReader {
     } else if (std::find(drawn_plans().begin(), drawn_plans().end(), map.plan) == drawn_plans().end()) {
       fail(*table.get("plan"), "plan is " + quoted(map.plan) + ", but must be one of generated, " + list_of(drawn_plans()));
     }
-    if (table.contains("door_max_m")) map.door_max_m = number(*table.get("door_max_m"), "door_max_m", {0.3, 20});
+    if (table.contains("corridor_max_m")) map.corridor_max_m = number(*table.get("corridor_max_m"), "corridor_max_m", {0.3, 50});
     for (auto&& [key, value] : table) {
-      require_setting(key, {"name", "file", "plan", "width_m", "height_m", "plan_seed", "door_max_m"});
+      require_setting(key, {"name", "file", "plan", "width_m", "height_m", "plan_seed", "corridor_max_m"});
     }
     study_.maps.push_back(std::move(map));
   }
@@ -239,20 +265,16 @@ class StudyReader {
            "there is no method " + quoted(like) + "; there are " + list_of(names));
     }
     for (auto&& [key, value] : table) require_setting(key, {"name", "like", "what"});
-    study_.methods.push_back({called, text_or(table, "what", std::string(known->what))});
+    study_.methods.push_back({called, text_or(table, "what", std::string(known->what)), static_cast<int>(table.source().begin.line)});
   }
 
-  /// What a method is comes first, then what holds for all, for the map, and for this method.
+  /// What holds for all comes first, then what holds for the map, what the method is, and what it sets itself.
   void add_settings(const toml::table* defaults, const toml::table& map, const toml::table& method) {
     Settings settings;
+    if (defaults != nullptr) set_all(settings, *defaults);
+    set_all(settings, map);
     find_method(text_or(method, "like", text(method, "name")))->compose(settings);
-    for (const toml::table* table : {defaults, &map, &method}) {
-      if (table == nullptr) continue;
-      for (auto&& [key, value] : *table) {
-        const Field* field = find_field(key.str());
-        if (field != nullptr) set(settings, *field, value);
-      }
-    }
+    set_all(settings, method);
     if (settings.cell_unoccupied_m <= settings.cell_occupied_m || settings.filter_unoccupied_m <= settings.filter_occupied_m) {
       fail(method, "the method " + quoted(text(method, "name")) + " has an unoccupied_m that is not above its occupied_m");
     }
@@ -287,21 +309,49 @@ class StudyReader {
   }
 
   void add_claim(const toml::table& table) {
-    allow(table, {"says", "metric", "less", "more", "than"});
+    allow(table, {"says", "metric", "less", "more", "than", "maps"});
     Claim claim;
     claim.says = text(table, "says");
     claim.metric = text(table, "metric");
     require_known(*table.get("metric"), "metric", claim.metric, table_metrics());
     claim.is_less = table.contains("less");
     if (claim.is_less == table.contains("more")) fail(table, "a claim has either less or more, and than");
-    const char* const key = claim.is_less ? "less" : "more";
-    claim.better = text(table, key);
-    claim.worse = text(table, "than");
-    std::vector<std::string> methods;
-    for (const StudyMethod& method : study_.methods) methods.push_back(method.name);
-    require_known(*table.get(key), key, claim.better, methods);
-    require_known(*table.get("than"), "than", claim.worse, methods);
+    claim.better = side(table, claim.is_less ? "less" : "more");
+    claim.worse = side(table, "than");
+    if (table.contains("maps")) {
+      claim.maps = indices(table, "maps", study_.maps);
+    } else {
+      claim.maps.resize(study_.maps.size());
+      std::iota(claim.maps.begin(), claim.maps.end(), std::size_t{0});
+    }
     study_.claims.push_back(std::move(claim));
+  }
+
+  /// A method, or a list of two.
+  [[nodiscard]] Side side(const toml::table& table, const char* key) const {
+    const toml::node* node = table.get(key);
+    if (node == nullptr) fail(table, std::string(key) + " is missing");
+    if (node->is_array()) {
+      Side both = indices(table, key, study_.methods);
+      if (both.size() != 2) fail(*node, std::string(key) + " must be a method, or a list of two");
+      return both;
+    }
+    return {index(*node, key, text(table, key), study_.methods)};
+  }
+
+  template <class Named>
+  [[nodiscard]] std::size_t index(const toml::node& node, const std::string& key, const std::string& value, const std::vector<Named>& all) const {
+    std::vector<std::string> known;
+    for (const Named& each : all) known.push_back(each.name);
+    require_known(node, key, value, known);
+    return static_cast<std::size_t>(std::find(known.begin(), known.end(), value) - known.begin());
+  }
+
+  template <class Named>
+  [[nodiscard]] std::vector<std::size_t> indices(const toml::table& table, const char* key, const std::vector<Named>& all) const {
+    std::vector<std::size_t> found;
+    for (const std::string& value : texts(table, key)) found.push_back(index(*table.get(key), key, value, all));
+    return found;
   }
 
   void require_known(const toml::node& node, const std::string& key, const std::string& value, const std::vector<std::string>& known) const {
@@ -310,18 +360,24 @@ class StudyReader {
     }
   }
 
-  [[nodiscard]] std::vector<std::string> names(const toml::table& table, const std::string& key, const std::vector<std::string>& known) const {
+  /// A list of texts; empty where there is no such key.
+  [[nodiscard]] std::vector<std::string> texts(const toml::table& table, const char* key) const {
     std::vector<std::string> all;
     const toml::node* node = table.get(key);
     if (node == nullptr) return all;
     const toml::array* array = node->as_array();
-    if (array == nullptr) fail(*node, key + " is not a list of texts");
+    if (array == nullptr) fail(*node, std::string(key) + " is not a list of texts");
     for (const toml::node& element : *array) {
       const std::optional<std::string> value = element.value_exact<std::string>();
-      if (!value) fail(element, key + " is not a list of texts");
-      require_known(element, key, *value, known);
+      if (!value) fail(element, std::string(key) + " is not a list of texts");
       all.push_back(*value);
     }
+    return all;
+  }
+
+  [[nodiscard]] std::vector<std::string> metrics(const toml::table& table, const char* key, const std::vector<std::string>& known) const {
+    const std::vector<std::string> all = texts(table, key);
+    for (const std::string& metric : all) require_known(*table.get(key), key, metric, known);
     return all;
   }
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/heading_aid.hpp"
+#include "incognita/core/split_mix.hpp"
 #include "incognita/estimation/dead_reckoning.hpp"
 #include "incognita/estimation/filter_with_map.hpp"
 #include "incognita/exploration/explorer.hpp"
@@ -59,24 +60,29 @@ DeadReckoning make_dead_reckoning(const Settings& settings) {
   return DeadReckoning(params);
 }
 
-HeadingAidedEkf make_ekf(const Settings& settings, const Simulator& simulator, int seed) {
+DvlEkf::Params make_ekf_params(const Settings& settings) {
   DvlEkf::Params params;
   params.coupled = settings.filter == "coupled";
   params.form = settings.form == "ray" ? DvlEkf::Form::ray : DvlEkf::Form::registration;
   params.uses_compass = settings.compass;
   params.registration.gamma = settings.gamma;
   params.registration.dvl = {squared(settings.filter_occupied_m), squared(settings.filter_unoccupied_m)};
+  params.imagined.tempering = settings.imagined_tempering == "hits" ? Tempering::hits : Tempering::beams;
   params.ray.gamma = settings.gamma;
   params.ray.dvl = params.registration.dvl;
+  return params;
+}
+
+HeadingAidedEkf make_ekf(const Settings& settings, const Simulator& simulator, std::uint64_t noise) {
   std::function<double()> compass;
   if (settings.heading_sigma_rad > 0.0) {
     // Copies of the filter draw from the same stream, as they would read the same compass.
-    const auto random = std::make_shared<Random>(static_cast<std::uint64_t>(seed));
+    const auto random = std::make_shared<Random>(noise);
     compass = [&simulator, random, sigma_rad = settings.heading_sigma_rad] {
       return wrap_angle_rad(simulator.T_start_robot().yaw_rad + random->normal(0.0, sigma_rad));
     };
   }
-  return HeadingAidedEkf(DvlEkf(params), std::move(compass), settings.heading_sigma_rad);
+  return HeadingAidedEkf(DvlEkf(make_ekf_params(settings)), std::move(compass), settings.heading_sigma_rad);
 }
 
 ExplorerParams make_explorer_params(const Settings& settings) {
@@ -172,7 +178,6 @@ std::string members_of(const Json& json) {
 std::string row_of(const examples::MissionRecord& record, const Arena& arena, const Settings& settings, const Pose2& T_world_start) {
   Json row;
   row["stop_reason"] = std::string(to_string(record.stop_reason));
-  row["end_s"] = rounded(record.duration_s, 1e-3);
   Json& metrics = row["metrics"];
   metrics["translation_rmse_m"] = record.trajectory_error.translation_rmse_m();
   metrics["translation_mae_m"] = record.trajectory_error.translation_mae_m();
@@ -181,6 +186,7 @@ std::string row_of(const examples::MissionRecord& record, const Arena& arena, co
   metrics["map_error"] = record.map_error;
   // The paper's T is the time that was given, also where the robot was done before.
   metrics["bits_per_step"] = record.map_uncertainty_bits_per_step * record.duration_s / settings.duration_s;
+  metrics["end_s"] = rounded(record.duration_s, 1e-3);
   metrics["explored_fraction"] = record.explored_fraction;
   metrics["explored_share_of_time"] = explored_share_of_time(record, settings.duration_s);
   const examples::ProgressRecord* const most = record.first_with_explored(0.9);
@@ -188,7 +194,7 @@ std::string row_of(const examples::MissionRecord& record, const Arena& arena, co
   metrics["distance_m"] = record.distance_m;
   metrics["decisions"] = record.decisions.size();
   metrics["collisions"] = record.collisions;
-  metrics["corridor_share"] = corridor_share(record, arena, T_world_start);
+  metrics["corridor_share"] = arena.uses.box().empty() ? Json() : Json(corridor_share(record, arena, T_world_start));
   row["curves"] = curves_of(record, settings.duration_s);
   row["way_m"] = way_of(record, T_world_start);
   return members_of(row);
@@ -220,14 +226,28 @@ examples::MissionRecord explore(const Arena& arena, const Settings& settings, Si
 
 }  // namespace
 
-TrialText run_trial(const Arena& arena, const Settings& settings, int start, int seed) {
+void require_possible(const Settings& settings) {
+  make_explorer_params(settings).validate();
+  static_cast<void>(make_map(settings, make_t_bayes(settings)));
+  static_cast<void>(make_log_odds(settings));
+  static_cast<void>(DvlEkf(make_ekf_params(settings)));
+  static_cast<void>(examples::make_measure(settings.entropy, settings.alpha));
+}
+
+Pose2 start_of_trial(const Arena& arena, const Settings& settings, int start) {
   Random places(static_cast<std::uint64_t>(start));
-  const Pose2 T_world_start = random_start(arena.world, settings.robot_radius_m, places);
-  Simulator simulator(arena.world, T_world_start, make_simulator_params(settings), static_cast<std::uint64_t>(seed));
+  return random_start(arena.world, settings.robot_radius_m, places);
+}
+
+TrialText run_trial(const Arena& arena, const Settings& settings, int start, int seed) {
+  const Pose2 T_world_start = start_of_trial(arena, settings, start);
+  // Of each start and seed, and the same for all methods.
+  const std::uint64_t noise = split_mixed(static_cast<std::uint64_t>(seed) + static_cast<std::uint64_t>(start) * split_mix_increment);
+  Simulator simulator(arena.world, T_world_start, make_simulator_params(settings), noise);
   const auto record = [&] {
     const bool is_ekf = settings.filter == "coupled" || settings.filter == "decoupled";
     const auto with_map = [&](auto map) {
-      return is_ekf ? explore(arena, settings, simulator, std::move(map), make_ekf(settings, simulator, seed))
+      return is_ekf ? explore(arena, settings, simulator, std::move(map), make_ekf(settings, simulator, noise))
                     : explore(arena, settings, simulator, std::move(map), make_dead_reckoning(settings));
     };
     if (settings.decision_cells == "same") {
@@ -236,7 +256,7 @@ TrialText run_trial(const Arena& arena, const Settings& settings, int start, int
     }
     const auto with_both = [&](auto decision_map) {
       return explore(arena, settings, simulator, std::move(decision_map),
-                     FilterWithMap<Map<TBayes>, HeadingAidedEkf>(make_ekf(settings, simulator, seed), make_map(settings, make_t_bayes(settings))));
+                     FilterWithMap<Map<TBayes>, HeadingAidedEkf>(make_ekf(settings, simulator, noise), make_map(settings, make_t_bayes(settings))));
     };
     return settings.decision_cells == "log-odds" ? with_both(make_map(settings, make_log_odds(settings)))
                                                  : with_both(make_map(settings, ExactPose<TBayes>(make_t_bayes(settings))));

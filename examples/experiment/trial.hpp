@@ -5,6 +5,7 @@
 
 #include "experiment/arena.hpp"
 #include "experiment/settings.hpp"
+#include "incognita/geometry/pose2.hpp"
 
 namespace experiment {
 
@@ -13,6 +14,12 @@ struct TrialText {
   std::string result;  ///< metrics, how they grew, and the way: the same on any machine and number of threads
   std::string cost;    ///< what it took
 };
+
+/// Throws std::invalid_argument for settings that no mission can have.
+void require_possible(const Settings& settings);
+
+/// The pose in the plan's frame that a trial begins at. Throws what random_start throws: where the robot fits nowhere.
+[[nodiscard]] incognita::Pose2 start_of_trial(const Arena& arena, const Settings& settings, int start);
 
 /// Throws what the simulation throws.
 [[nodiscard]] TrialText run_trial(const Arena& arena, const Settings& settings, int start, int seed);

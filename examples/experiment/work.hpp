@@ -9,6 +9,8 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -52,6 +54,12 @@ class Desk {
     }
   }
 
+  /// No more units, for this reason.
+  void close(const std::string& reason) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::make_exception_ptr(std::runtime_error(reason));
+  }
+
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -63,7 +71,7 @@ class Desk {
   std::exception_ptr failure_;
 };
 
-/// Messages are "UNIT" or, without one, "" to a rank, and from it "UNIT ROW", or "" when it is new.
+/// Messages are "UNIT" or, without one, "" to a rank, and from it first who it is, and then "UNIT ROW".
 [[nodiscard]] inline std::pair<std::size_t, std::string> unit_and_rest(const std::string& message) {
   std::size_t unit = 0;
   const char* const end = message.data() + message.size();
@@ -73,9 +81,9 @@ class Desk {
 
 }  // namespace detail
 
-/// Rank 0: gives the units to its own threads and to the other ranks, until all are done. Throws what done() throws, after the units
-/// that are under way.
-inline void give_out(const Work& work, const Ranks& ranks, int threads) {
+/// Rank 0: gives the units to its own threads and to the other ranks, until all are done; `myself` is what each of them must say that it is.
+/// Throws what done() throws, and std::runtime_error for a rank that is something else, after the units that are under way.
+inline void give_out(const Work& work, const Ranks& ranks, const std::string& myself, int threads) {
   detail::Desk desk(work);
   std::atomic<int> at_work = threads;
   std::vector<std::thread> workers;
@@ -85,15 +93,18 @@ inline void give_out(const Work& work, const Ranks& ranks, int threads) {
       --at_work;
     });
   }
+  std::set<int> known;
   for (int others = ranks.count() - 1; others > 0 || at_work > 0;) {
     const auto message = ranks.received();
     if (!message) {
       std::this_thread::sleep_for(detail::nap);
       continue;
     }
-    if (!message->text.empty()) {
+    if (!known.insert(message->from).second) {
       const auto [unit, row] = detail::unit_and_rest(message->text);
       desk.take(unit, row);
+    } else if (message->text != myself) {
+      desk.close("rank " + std::to_string(message->from) + " cannot take part: " + message->text);
     }
     const auto unit = desk.next();
     ranks.send(message->from, unit ? std::to_string(*unit) : "");
@@ -103,9 +114,21 @@ inline void give_out(const Work& work, const Ranks& ranks, int threads) {
   desk.rethrow();
 }
 
-/// Any other rank: runs what rank 0 gives it, one unit at a time.
-inline void work_for_rank_0(const std::function<std::string(std::size_t)>& run, const Ranks& ranks) {
-  ranks.send(0, "");
+/// Rank 0, where there is nothing to do: lets the others go.
+inline void send_home(const Ranks& ranks) {
+  for (int others = ranks.count() - 1; others > 0;) {
+    if (const auto message = ranks.received()) {
+      ranks.send(message->from, "");
+      --others;
+    } else {
+      std::this_thread::sleep_for(detail::nap);
+    }
+  }
+}
+
+/// Any other rank: says who it is, and runs what rank 0 gives it, one unit at a time.
+inline void work_for_rank_0(const std::string& myself, const std::function<std::string(std::size_t)>& run, const Ranks& ranks) {
+  ranks.send(0, myself);
   for (;;) {
     const auto message = ranks.received();
     if (!message) {

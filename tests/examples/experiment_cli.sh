@@ -73,6 +73,14 @@ study extra '[[claim]]' 'says = "x"' 'metric = "beauty"' 'less = "A5"' 'than = "
 refused "a metric that is not there" 'extra.toml:22: metric is "beauty", but must be one of' extra.toml
 study extra '[robots]' 'many = true'
 refused "a table that is not there" 'extra.toml:20: there is no key "robots" here' extra.toml
+study extra '[[claim]]' 'says = "x"' 'metric = "nees"' 'less = ["A5"]' 'than = "A1"'
+refused "a list of one method" 'extra.toml:23: less must be a method, or a list of two' extra.toml
+study extra '[[claim]]' 'says = "x"' 'metric = "nees"' 'less = "A5"' 'than = "A1"' 'maps = ["castle"]'
+refused "a claim on a map that is not there" 'extra.toml:25: maps is "castle", but must be one of office' extra.toml
+study extra '[[method]]' 'name = "A2"' 'robot_radius_m = 0.6' 'range_max_m = 0.5'
+refused "a robot that sees no further than its body" 'extra.toml:20: A2 on office: ExplorerParams: ' extra.toml
+study extra '[[method]]' 'name = "A2"' 'robot_radius_m = 9'
+refused "a robot that fits nowhere" 'extra.toml:20: A2 on office: random_start: radius_m is 9' extra.toml
 study good
 refused "negative threads" threads good.toml --threads -1
 output=/dev/null/x refused "an output below a file" /dev/null/x good.toml
@@ -106,13 +114,38 @@ grep -q '^| office | A5 | 4 | ' one/report.md || fail "the report does not say w
 for file in report.md study.json costs.jsonl office_curves.png office_boxes.png office_ways.png; do
   [ -s one/$file ] || fail "$file is missing or empty"
 done
-grep -q '^| Scans help | translation_rmse_m, A5 - A1 | office | 4 |.*\*\*' one/report.md || fail "the report does not judge the claim"
+grep -q '^| Scans help | translation_rmse_m, A5 - A1 | \*\*undecided\*\* .*, 4 pairs |' one/report.md || fail "the report does not judge the claim"
 if command -v mpirun >/dev/null && "$program" --help | grep -q mpirun; then
   mpirun -n 2 "$program" good.toml --quiet --output ranks >stdout 2>stderr || fail "mpirun: exit code $?: $(cat stderr)"
   [ "$(rows one)" = "$(rows ranks)" ] || fail "rows differ on two ranks"
   mpirun -n 2 "$program" nowhere.toml --quiet --output none >stdout 2>stderr && fail "mpirun goes on without a study"
   [ "$(grep -c 'nowhere.toml' stderr)" -ge 1 ] || fail "mpirun does not say that the study is not there"
+  sed 's/beams = 90/beams = 91/' good.toml >other.toml
+  mpirun -n 1 "$program" good.toml --quiet --output mixed : -n 1 "$program" other.toml --quiet --output mixed >stdout 2>stderr &&
+    fail "a rank with another study takes part"
+  grep -q 'rank 1 cannot take part: study ' stderr || fail "it does not say that a rank has another study: $(cat stderr)"
+  [ "$(sort mixed/results.jsonl | comm -23 - <(rows one) | wc -l)" -eq 0 ] || fail "a rank with another study has given a row"
+
+  # A rank that is killed takes the others with it; what is done stays.
+  for delay in 0.4 0.7 1.0; do
+    resume=
+    [ -e rank_killed/results.jsonl ] && resume=--resume
+    mpirun -n 2 "$program" good.toml --quiet --output rank_killed $resume >stdout 2>stderr &
+    sleep $delay
+    pgrep -f "^$program good.toml --quiet --output rank_killed" | tail -1 | xargs -r kill -9
+    wait $!
+  done
+  mpirun -n 2 "$program" good.toml --quiet --output rank_killed --resume >stdout 2>stderr || fail "after killed ranks --resume fails: $(cat stderr)"
+  [ "$(rows one)" = "$(rows rank_killed)" ] || fail "rows differ after killed ranks"
+else
+  echo "experiment: ranks are not tried, as there is no mpirun"
 fi
+
+# A mission that is lost has a row as any other.
+study lost '[[method]]' 'name = "A2"' 'position_sigma_max_m = 1e-8'
+run_quietly lost lost.toml
+[ "$(wc -l <lost/results.jsonl)" -eq 16 ] || fail "not a row for each mission where some are lost"
+[ "$(grep '"method":"A2"' lost/results.jsonl | grep -vc '"stop_reason":"out_of_time"')" -eq 4 ] || fail "the rows do not say which missions were lost"
 
 # What is there is not written over, and what is done is not done again.
 "$program" good.toml --quiet --output one >stdout 2>stderr && fail "results are there, and it went on without --resume"
@@ -138,10 +171,17 @@ for attempt in 1 2 3 4 5 6 7 8 9 10; do
   sleep "0.$(printf '%03d' $((RANDOM % 400 + 30)))"
   kill -9 $pid 2>/dev/null && killed=$((killed + 1))
   wait $pid 2>/dev/null
+  head -n "$(wc -l <killed/results.jsonl)" killed/results.jsonl >"killed_$attempt.jsonl" 2>/dev/null  # whole lines
   "$program" good.toml --quiet --output killed --threads 2 --resume &
 done
 wait $! || fail "after ten kills --resume fails"
 [ "$(rows one | grep -v '"seed":3')" = "$(rows killed)" ] || fail "rows differ after kills"
+for attempt in 1 2 3 4 5 6 7 8 9 10; do
+  size=$(stat -c %s "killed_$attempt.jsonl")
+  cmp -s -n "$size" "killed_$attempt.jsonl" killed/results.jsonl || fail "rows before kill $attempt were lost or written again"
+done
+[ "$(wc -l <killed/costs.jsonl)" -le $((12 + 2 * killed)) ] || fail "more missions were run again than were under way"
+[ $killed -gt 0 ] || fail "no process was killed, so nothing was tried"
 echo "experiment: killed $killed times"
 
 # A second process is refused, while the first goes on.
