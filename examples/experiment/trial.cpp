@@ -218,10 +218,9 @@ template <class DecisionMap, class Filter>
 examples::MissionRecord explore(const Arena& arena, const Settings& settings, Simulator& simulator, DecisionMap map, Filter filter) {
   Explorer<DecisionMap, examples::Measure, Filter> explorer(make_explorer_params(settings), std::move(map),
                                                             examples::make_measure(settings.entropy, settings.alpha), std::move(filter));
-  const examples::MissionParams params{simulator.T_world_robot().position(), settings.robot_radius_m, settings.range_max_m, settings.duration_s,
-                                       false};
+  const auto& visible = arena.visible_floor(simulator.T_world_robot().position(), settings.robot_radius_m, settings.range_max_m);
   examples::Steering steering(settings.controller, settings.robot_radius_m, explorer.map().lattice(), settings.speed_max_m_per_s);
-  return examples::run_mission(explorer, simulator, arena.world, params, {}, nullptr, nullptr, steering, [](const auto&) {});
+  return examples::run_mission(explorer, simulator, visible, {settings.duration_s, false}, {}, nullptr, nullptr, steering, [](const auto&) {});
 }
 
 }  // namespace

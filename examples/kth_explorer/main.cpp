@@ -22,6 +22,7 @@
 #include "incognita/loops/loop_closure.hpp"
 #include "incognita/map/cells/dispersion.hpp"
 #include "incognita/map/cells/log_odds.hpp"
+#include "incognita/metrics/visible_floor.hpp"
 #include "incognita/simulation/start.hpp"
 #include "kth_explorer/allowed_floor.hpp"
 #include "kth_explorer/embedded_floor_plan.hpp"
@@ -140,7 +141,8 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
   std::function<void(const examples::ProgressRecord&)> report;
   if (!options.quiet) report = [&](const examples::ProgressRecord& p) { print_progress(p, options.duration_s); };
   const Pose2 T_world_start = simulator.T_start_world().inverse();
-  const examples::MissionParams mission{simulator.T_world_robot().position(), robot.radius_m, params.gain.range_max_m, options.duration_s, options.returns};
+  const examples::MissionParams mission{options.duration_s, options.returns};
+  const auto visible = visible_floor(floor, simulator.T_world_robot().position(), robot.radius_m, params.gain.range_max_m);
   examples::Steering steering(options.controller, options.robot_radius_m, explorer.map().lattice());
   examples::MissionRecord before;
   if (!options.resume_file.empty()) before = resumed_mission(options, explorer, simulator, steering);
@@ -158,7 +160,7 @@ void explore(const Options& options, incognita::Simulator& simulator, const inco
     if (!options.save_file.empty()) saved = saved_mission(options, explorer, simulator, now, steering);
   };
   const examples::MissionRecord record =
-      examples::run_mission(explorer, simulator, floor, mission, std::move(before), report, recorder ? &*recorder : nullptr, steering, save);
+      examples::run_mission(explorer, simulator, visible, mission, std::move(before), report, recorder ? &*recorder : nullptr, steering, save);
 
   const nlohmann::ordered_json metrics = metrics_json(record, options);
   if (recorder) recorder->ended({std::string(to_string(record.stop_reason)), metrics.dump()});

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -22,7 +23,6 @@
 #include "incognita/metrics/nees.hpp"
 #include "incognita/metrics/trajectory_error.hpp"
 #include "incognita/metrics/truth.hpp"
-#include "incognita/metrics/visible_floor.hpp"
 #include "incognita/simulation/simulator.hpp"
 #include "support/drive.hpp"
 
@@ -86,9 +86,6 @@ struct ExplorerTimes {
 };
 
 struct MissionParams {
-  Eigen::Vector2d start_m;  ///< in the map file's frame
-  double robot_radius_m;
-  double range_max_m;
   double duration_s;
   bool returns;  ///< to the start, in the end
 };
@@ -143,20 +140,19 @@ template <class Explorer>
   }
 }
 
-/// Drives `explorer` in `simulator` until it stops or duration_s is over, and then back if asked to. `floor` is what it is asked to
-/// explore, and `record` that of what has been explored, of a simulator that is not at its start. steering(explorer, scan) is what the robot
+/// Drives `explorer` in `simulator` until it stops or duration_s is over, and then back if asked to. `visible` is the floor that it could see
+/// of what it is asked to explore (visible_floor), in the map file's frame, and `record` that of what has been explored, of a simulator that is not at its start. steering(explorer, scan) is what the robot
 /// is told (OwnCommand, Steering). `report` is called once a simulated second of the exploration, at_end(record) where it ends, before the way back. `recorder` follows the explorer, the way back included, unless it
 /// is null.
 template <class Explorer, class Steering, class AtEnd>
-[[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, const incognita::World& floor,
+[[nodiscard]] MissionRecord run_mission(Explorer& explorer, incognita::Simulator& simulator, const incognita::Grid<std::uint8_t, 2>& visible,
                                         const MissionParams& params, MissionRecord record,
                                         const std::function<void(const ProgressRecord&)>& report, incognita::RunRecorder* recorder,
                                         Steering& steering, AtEnd&& at_end) {
   using namespace incognita;
   const Clock::time_point begin = Clock::now();
   const Pose2& T_start_world = simulator.T_start_world();
-  const Coverage coverage(visible_floor(floor, params.start_m, params.robot_radius_m, params.range_max_m), T_start_world,
-                          explorer.map().lattice());
+  const Coverage coverage(visible, T_start_world, explorer.map().lattice());
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   const auto is_known = [&](const Index<2>& cell) {
     return explorer.occupancy().grid().value(cell) != Occupancy::unknown;
