@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -109,7 +110,8 @@ using Costs = std::map<UnitKey, nlohmann::json>;
     try {
       nlohmann::json json = nlohmann::json::parse(lines[n]);
       for (const auto& [name, words] : cost_figures) static_cast<void>(json.at(name).get<double>());
-      costs[key_in(json)] = std::move(json);
+      UnitKey key = key_in(json);
+      costs.insert_or_assign(std::move(key), std::move(json));
     } catch (const nlohmann::json::exception& problem) {
       throw incognita::InputError(file + ':' + std::to_string(n + 1), std::string("is not a row of costs: ") + problem.what());
     }

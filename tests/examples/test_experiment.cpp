@@ -128,6 +128,19 @@ TEST_CASE("what has failed is in no value, and a unit counts once") {
   CHECK_THROWS_WITH(parsed_rows({line.substr(0, 20)}, "rows"), Catch::StartsWith("rows:1: is not a row of results: "));
 }
 
+TEST_CASE("the last cost of a unit is its cost") {
+  const Study study = two_methods();
+  const auto line = [&](std::size_t unit, double wall_s) {
+    std::string figures;
+    for (const auto& [name, words] : cost_figures) figures += (figures.empty() ? "\"" : ",\"") + std::string(name) + "\":" + std::to_string(wall_s);
+    return row_text(study, study.units()[unit], figures);
+  };
+  const Costs costs = parsed_costs({line(0, 1.0), line(1, 2.0), line(0, 3.0)}, "costs");
+  REQUIRE(costs.size() == 2);
+  CHECK(costs.at(key_of(study, study.units()[0])).at("wall_s") == 3.0);
+  CHECK_THROWS_WITH(parsed_costs({line(0, 1.0), "{}"}, "costs"), Catch::StartsWith("costs:2: is not a row of costs: "));
+}
+
 TEST_CASE("a unit that fails is a row as any other, and each unit is run once by whoever is free") {
   const Study study = two_methods();
   const std::vector<Unit> units = study.units();
