@@ -28,7 +28,7 @@ namespace experiment {
   for (std::size_t map = 0; map < study.maps.size(); ++map) {
     nlohmann::json& of_map = json[study.maps[map].name];
     of_map["checksum"] = arenas[map].checksum;
-    of_map["corridor_max_m"] = study.maps[map].corridor_max_m ? nlohmann::json(*study.maps[map].corridor_max_m) : nlohmann::json();
+    of_map["corridor_max_m"] = study.maps[map].corridor_max_m.value_or(0.0);
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
       of_map["methods"][study.methods[method].name] = settings_json(study.settings_of({map, method, 1, 1}));
     }
