@@ -98,7 +98,8 @@ class StudyReader {
     if (whole.contains("like")) fail(*own.get("like"), "like names a study that is like another itself");
     own.erase("like");
     for (auto&& [key, value] : own) {
-      value.visit([&whole, &key](const auto& node) { whole.insert_or_assign(key, node); });
+      const std::string_view name = key.str();
+      value.visit([&whole, name](const auto& node) { whole.insert_or_assign(name, node); });
     }
     return whole;
   }
