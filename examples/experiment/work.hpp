@@ -32,6 +32,14 @@ namespace detail {
 /// How long who waits for a message sleeps: MPI itself would wait at full speed, on a core that a mission could use.
 inline constexpr std::chrono::milliseconds nap{2};
 
+/// Waits until there is one.
+[[nodiscard]] inline Ranks::Message next_message(const Ranks& ranks) {
+  for (;;) {
+    if (auto message = ranks.received()) return std::move(*message);
+    std::this_thread::sleep_for(nap);
+  }
+}
+
 /// Gives units out and takes rows, from any thread. After a row that could not be kept there are no more units.
 class Desk {
  public:
@@ -116,27 +124,16 @@ inline void give_out(const Work& work, const Ranks& ranks, const std::string& my
 
 /// Rank 0, where there is nothing to do: lets the others go.
 inline void send_home(const Ranks& ranks) {
-  for (int others = ranks.count() - 1; others > 0;) {
-    if (const auto message = ranks.received()) {
-      ranks.send(message->from, "");
-      --others;
-    } else {
-      std::this_thread::sleep_for(detail::nap);
-    }
-  }
+  for (int others = ranks.count() - 1; others > 0; --others) ranks.send(detail::next_message(ranks).from, "");
 }
 
 /// Any other rank: says who it is, and runs what rank 0 gives it, one unit at a time.
 inline void work_for_rank_0(const std::string& myself, const std::function<std::string(std::size_t)>& run, const Ranks& ranks) {
   ranks.send(0, myself);
   for (;;) {
-    const auto message = ranks.received();
-    if (!message) {
-      std::this_thread::sleep_for(detail::nap);
-      continue;
-    }
-    if (message->text.empty()) return;
-    const std::size_t unit = detail::unit_and_rest(message->text).first;
+    const Ranks::Message message = detail::next_message(ranks);
+    if (message.text.empty()) return;
+    const std::size_t unit = detail::unit_and_rest(message.text).first;
     ranks.send(0, std::to_string(unit) + ' ' + run(unit));
   }
 }
