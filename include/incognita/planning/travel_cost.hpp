@@ -104,7 +104,6 @@ class TravelCostField {
     start_m_ = start_m;
     proper_max_ = static_cast<float>(1.0 + params.clearance_weight);
     passable_max_ = static_cast<float>(params.tight_cost_per_m());
-    roomy_max_ = free_cost_per_m(static_cast<float>(params.clearance_roomy_m(occupancy.resolution_m())), params);
     no_stay_.clear();
     for (Grid<float, 2>* costs : {&cost_per_m_, &cost_m_}) costs->clear_to(box.padded(1));
     step_to_.clear_to(box.padded(1));
@@ -228,22 +227,25 @@ class TravelCostField {
     }
   }
 
-  [[nodiscard]] static float free_cost_per_m(float clearance_m, const TravelParams& params) {
-    const float lack = std::max(0.0F, 1.0F - clearance_m * static_cast<float>(1.0 / params.clearance_soft_m));
-    return 1.0F + static_cast<float>(params.clearance_weight) * lack * lack;
-  }
-
   void rate_cells(const OccupancyGrid<2>& occupancy, const Grid<float, 2>& clearance_m,
                   const TravelParams& params) {
     const auto hard_m = static_cast<float>(params.clearance_hard_m());
     const auto tight_m = static_cast<float>(params.clearance_tight_m(occupancy.resolution_m()));
+    const auto roomy_m = static_cast<float>(params.clearance_roomy_m(occupancy.resolution_m()));
+    const auto weight = static_cast<float>(params.clearance_weight);
+    const auto per_soft_m = static_cast<float>(1.0 / params.clearance_soft_m);
+    const auto cost_with = [weight, per_soft_m](float of_m) {
+      const float lack = std::max(0.0F, 1.0F - of_m * per_soft_m);
+      return 1.0F + weight * lack * lack;
+    };
+    roomy_max_ = cost_with(roomy_m);
     const Offset width = occupancy.stride(1);
     for (Offset row = 0; row < static_cast<Offset>(occupancy.size()); row += width) {
       const Offset first = cost_per_m_.offset_of(occupancy.index_at(row));
       float* const rated = &cost_per_m_[first];
       for (Offset i = 0; i < width; ++i) {
         const bool proper = occupancy[row + i] == Occupancy::free && clearance_m[row + i] >= hard_m;
-        rated[i] = proper ? free_cost_per_m(clearance_m[row + i], params) : infinite;
+        rated[i] = proper ? cost_with(clearance_m[row + i]) : infinite;
         if (proper || occupancy[row + i] != Occupancy::free || clearance_m[row + i] < tight_m) continue;
         rated[i] = passable_max_;
         no_stay_.push_back(first + i);
