@@ -7,9 +7,9 @@ using namespace incognita;
 
 namespace {
 
-using Cells = Box<Eigen::Vector2i>;
+using CellBox = Box<Eigen::Vector2i>;
 
-Cells random_box(Random& random) {
+CellBox random_box(Random& random) {
   const auto draw = [&] { return static_cast<int>(random.index(7)) - 3; };
   return {{draw(), draw()}, {draw(), draw()}};
 }
@@ -22,16 +22,16 @@ TEST_CASE("A box holds its lower corner and not its upper one", "[geometry]") {
   REQUIRE_FALSE(box.contains(Eigen::Vector2d(2.0, 0.0)));
   REQUIRE_FALSE(box.contains(Eigen::Vector2d(0.0, 1.0)));
   REQUIRE(box.extent() == Eigen::Vector2d(2.0, 2.0));
-  REQUIRE(Cells{}.empty());
-  REQUIRE(Cells{{0, 0}, {5, 0}}.empty());
+  REQUIRE(CellBox{}.empty());
+  REQUIRE(CellBox{{0, 0}, {5, 0}}.empty());
 }
 
 TEST_CASE("Containment and enclosing boxes agree with the sets of cells", "[geometry]") {
   Random random(1);
   for (int trial = 0; trial < 500; ++trial) {
-    const Cells a = random_box(random);
-    const Cells b = random_box(random);
-    const Cells both = enclosing_box(a, b);
+    const CellBox a = random_box(random);
+    const CellBox b = random_box(random);
+    const CellBox both = enclosing_box(a, b);
     bool b_in_a = true;
     bool any = false;
     for (int x = -4; x <= 4; ++x) {
@@ -50,11 +50,11 @@ TEST_CASE("Containment and enclosing boxes agree with the sets of cells", "[geom
     REQUIRE(both.contains(b));
     // Smallest: each side is a side of one of the two.
     for (int axis = 0; any && axis < 2; ++axis) {
-      const auto touches = [&](const Cells& box, auto corner) {
+      const auto touches = [&](const CellBox& box, auto corner) {
         return !box.empty() && corner(box)[axis] == corner(both)[axis];
       };
-      const auto lower = [](const Cells& box) { return box.lower; };
-      const auto upper = [](const Cells& box) { return box.upper; };
+      const auto lower = [](const CellBox& box) { return box.lower; };
+      const auto upper = [](const CellBox& box) { return box.upper; };
       REQUIRE((touches(a, lower) || touches(b, lower)));
       REQUIRE((touches(a, upper) || touches(b, upper)));
     }

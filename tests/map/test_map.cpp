@@ -17,8 +17,8 @@ static_assert(Map<LogOdds, 3>::dimension == 3);
 static_assert(std::is_same_v<Map<LogOdds>::State, LogOdds::State>);
 static_assert(!std::is_convertible_v<MapParams, Map<>>);
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kDoubleNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDoubleInfinity = std::numeric_limits<double>::infinity();
 
 bool same_state(const TBayes::State& a, const TBayes::State& b) {
   return a.log_odds == b.log_odds && a.settled_by == b.settled_by && a.hits == b.hits;
@@ -57,7 +57,7 @@ double largest_error(const Map<Cell, Dim>& map, const reference::SlowMap<Rule, D
     const double error = std::abs(static_cast<double>(map.log_odds(index)) - expected);
     largest = std::max(largest, error / (1.0 + std::abs(expected)));
   }
-  return found == slow.cells.size() ? largest : kInfinity;
+  return found == slow.cells.size() ? largest : kDoubleInfinity;
 }
 
 template <int Dim, class Cell>
@@ -140,7 +140,7 @@ TEST_CASE("A scan without beams or without valid ones changes no cell", "[map]")
   map.update(one_beam(3.0), {}, kExact);
   const Map<> before = map;
   Scan<2> bad(circular_beams(5, 10.0));
-  for (std::size_t beam = 0; beam < 5; ++beam) bad.set_range_m(beam, kNan);
+  for (std::size_t beam = 0; beam < 5; ++beam) bad.set_range_m(beam, kDoubleNan);
   for (const Scan<2>& scan : {Scan<2>(circular_beams(0, 10.0)), bad}) {
     const ScanReport report = map.update(scan, {1.0, 0.0, 0.5}, kExact);
     REQUIRE(report.beams_used == 0);
@@ -162,7 +162,7 @@ TEST_CASE("A bad pose or covariance is refused and the map is unchanged", "[map]
   const Scan<2> scan = reference::random_scan<2>(random, 60, 6.0);
   const Pose2 good{1.0, 2.0, 0.3};
 
-  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+  for (const double bad : {kDoubleNan, kDoubleInfinity, -kDoubleInfinity}) {
     REQUIRE_THROWS_AS(map.update(scan, {bad, 0.0, 0.0}, kExact), std::invalid_argument);
     REQUIRE_THROWS_AS(map.update(scan, {0.0, bad, 0.0}, kExact), std::invalid_argument);
     REQUIRE_THROWS_AS(map.update(scan, {0.0, 0.0, bad}, kExact), std::invalid_argument);
@@ -187,8 +187,8 @@ TEST_CASE("A bad pose or covariance is refused and the map is unchanged", "[map]
   REQUIRE_THROWS_AS(map.update(scan, {0.0, -1e300, 0.0}, kExact), std::length_error);
   REQUIRE_THROWS_AS(map.update(scan, {1e7, 1e7, 0.0}, kExact), std::length_error);
   REQUIRE_THROWS_AS(map.reserve({{-1e7, -1e7}, {1e7, 1e7}}), std::length_error);
-  REQUIRE_THROWS_AS(map.reserve({{0.0, 0.0}, {kInfinity, 1.0}}), std::length_error);
-  REQUIRE_THROWS_AS(map.reserve({{0.0, kNan}, {1.0, 1.0}}), std::length_error);
+  REQUIRE_THROWS_AS(map.reserve({{0.0, 0.0}, {kDoubleInfinity, 1.0}}), std::length_error);
+  REQUIRE_THROWS_AS(map.reserve({{0.0, kDoubleNan}, {1.0, 1.0}}), std::length_error);
   REQUIRE(same_map(map, before));
 
   // A pose of which nothing is uncertain, or only a direction, is fine.
@@ -369,10 +369,10 @@ TEST_CASE("A map reduces to free, occupied and unknown cells", "[map]") {
 }
 
 TEST_CASE("A map refuses parameters outside of their bounds", "[map]") {
-  for (const double bad : {0.0, -0.1, kNan, kInfinity}) {
+  for (const double bad : {0.0, -0.1, kDoubleNan, kDoubleInfinity}) {
     REQUIRE_THROWS_AS(Map<>({bad, 0.5}), std::invalid_argument);
   }
-  for (const double bad : {-0.1, kNan, kInfinity})
+  for (const double bad : {-0.1, kDoubleNan, kDoubleInfinity})
     REQUIRE_THROWS_AS(Map<>({0.1, bad}), std::invalid_argument);
   REQUIRE_NOTHROW(Map<>({0.1, 0.0}));
 }

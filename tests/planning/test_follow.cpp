@@ -16,13 +16,13 @@ using namespace incognita;
 
 namespace {
 
-constexpr double step_s = 0.02;
+constexpr double control_step_s = 0.02;
 
 Pose2 driven(const Pose2& pose, const Twist2& twist) {
-  const double middle_rad = pose.yaw_rad + 0.5 * step_s * twist.turn_rate_rad_per_s;
-  return {pose.x_m + step_s * twist.speed_m_per_s * std::cos(middle_rad),
-          pose.y_m + step_s * twist.speed_m_per_s * std::sin(middle_rad),
-          wrap_angle_rad(pose.yaw_rad + step_s * twist.turn_rate_rad_per_s)};
+  const double middle_rad = pose.yaw_rad + 0.5 * control_step_s * twist.turn_rate_rad_per_s;
+  return {pose.x_m + control_step_s * twist.speed_m_per_s * std::cos(middle_rad),
+          pose.y_m + control_step_s * twist.speed_m_per_s * std::sin(middle_rad),
+          wrap_angle_rad(pose.yaw_rad + control_step_s * twist.turn_rate_rad_per_s)};
 }
 
 double distance_to_path_m(const Polyline& path, const Eigen::Vector2d& point_m) {
@@ -51,7 +51,7 @@ Drive follow(const std::vector<Eigen::Vector2d>& path_m, const Pose2& start, con
     forwards = forwards && follower.progress_m() >= progress_m;
     progress_m = follower.progress_m();
     drive.pose = driven(drive.pose, twist);
-    drive.time_s += step_s;
+    drive.time_s += control_step_s;
     drive.deviation_max_m =
         std::max(drive.deviation_max_m, distance_to_path_m(follower.path(), drive.pose.position()));
   }
@@ -188,7 +188,7 @@ TEST_CASE("A robot drives through doors of 0.6 m, planned, followed and guarded,
       }
       pose = driven(pose, guard_command(follower.command(pose), scan));
       closest_m = std::min(closest_m, distance_to_squares_m(world, pose.position()));
-      time_s += step_s;
+      time_s += control_step_s;
     }
     REQUIRE(follower.is_finished());
     // No more than twice what a straight drive would take, and some for the turns.
@@ -236,7 +236,7 @@ TEST_CASE("A path half a cell aside of the middle leads a robot of 0.4 m through
     Scan<2> scan(circular_beams(360, 10.0));
     double closest_m = 1.0;
     Twist2 command;
-    for (int step = 0; !follower.is_finished() && step * step_s < 40.0; ++step) {
+    for (int step = 0; !follower.is_finished() && step * control_step_s < 40.0; ++step) {
       if (step % 5 == 0) {
         for (std::size_t beam = 0; beam < scan.size(); ++beam) {
           const Eigen::Vector2d direction = pose.rotation() * scan.direction(beam);

@@ -12,10 +12,10 @@ namespace {
 
 using namespace incognita;
 
-const Pose2 start{3.0, 2.0, 0.8};
+const Pose2 start_in_room{3.0, 2.0, 0.8};
 
 Simulator simulator_in_room(std::uint64_t seed, const SimulatorParams& params = {}) {
-  return Simulator(World(test::room(120, 80, 0.05)), start, params, seed);
+  return Simulator(World(test::room(120, 80, 0.05)), start_in_room, params, seed);
 }
 
 std::vector<double> ranges_of(const Scan<2>& scan) {
