@@ -25,6 +25,14 @@ class Arena {
   incognita::Grid<FloorUse, 2> uses;  ///< empty where nothing is asked of corridors
   std::uint32_t checksum;  ///< of the plan's pixels
 
+  explicit Arena(const StudyMap& map)
+      : world(load_plan(map)),
+        uses(map.corridor_max_m ? floor_uses(world.plan(), *map.corridor_max_m) : incognita::Grid<FloorUse, 2>(world.plan().lattice())) {
+    incognita::StateWriter writer;
+    writer(world.plan());
+    checksum = incognita::checksum(writer.bytes());
+  }
+
   /// The floor that a robot can see of what it can reach from a start, which must be one of start_of_trial(): these lie in one region, so that
   /// it is found once for all. The reference is good as long as the arena. Safe from many threads.
   [[nodiscard]] const incognita::Grid<std::uint8_t, 2>& visible_floor(const Eigen::Vector2d& start_m, double radius_m, double range_max_m) const {
@@ -33,12 +41,6 @@ class Arena {
     if (found != visible_->floors.end()) return found->second;
     auto visible = incognita::visible_floor(world, start_m, radius_m, range_max_m);
     return visible_->floors.emplace(std::pair(radius_m, range_max_m), std::move(visible)).first->second;
-  }
-
-  explicit Arena(const StudyMap& map) : world(load_plan(map)), uses(map.corridor_max_m ? floor_uses(world.plan(), *map.corridor_max_m) : incognita::Grid<FloorUse, 2>(world.plan().lattice())) {
-    incognita::StateWriter writer;
-    writer(world.plan());
-    checksum = incognita::checksum(writer.bytes());
   }
 
  private:
