@@ -39,13 +39,27 @@ namespace detail {
   return values;
 }
 
+/// Whether a linear axis would press some of these values flat: all are above 0, and the largest is many times the smallest.
+[[nodiscard]] inline bool needs_logarithm(const std::vector<double>& values) {
+  constexpr double times = 20.0;
+  if (values.empty()) return false;
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  return *least > 0.0 && *greatest > times * *least;
+}
+
 }  // namespace detail
 
-/// Medians over time with a band from quartile to quartile, a panel a metric, of the first group of trials.
+/// Medians over time with a band from quartile to quartile, a panel a metric, of the first group of trials; of methods that end far apart on
+/// a logarithmic axis.
 inline void draw_curves(const std::filesystem::path& file, const Study& study, const Results& results, std::size_t map) {
+  constexpr std::size_t columns_of_legend = 3;
+  const std::size_t rows_of_legend = (study.methods.size() + columns_of_legend - 1) / columns_of_legend;
   std::vector<examples::Chart> panels;
   for (const std::string& metric : study.curves) {
-    examples::Chart panel{.title = study.maps[map].name, .x_label = "time (s)", .y_label = metric};
+    examples::Chart panel{.title = study.maps[map].name, .x_label = "time (s)", .y_label = metric,
+                          .lines_below = examples::lines_below_legend(rows_of_legend)};
+    std::vector<double> last;
+    bool is_positive = true;
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
       const std::vector<Results::Done> rows = results.of(map, method, &study.trials.front());
       if (rows.empty()) continue;
@@ -61,24 +75,34 @@ inline void draw_curves(const std::filesystem::path& file, const Study& study, c
         curve.y.push_back(spread.median);
         curve.low.push_back(spread.lower_quartile);
         curve.high.push_back(spread.upper_quartile);
+        is_positive = is_positive && spread.lower_quartile > 0.0;
       }
+      if (!curve.y.empty()) last.push_back(curve.y.back());
       panel.series.push_back(std::move(curve));
     }
+    panel.y_logarithmic = is_positive && detail::needs_logarithm(last);
     panels.push_back(std::move(panel));
   }
   examples::write_chart_png(file, panels, {.columns = 2});
 }
 
-/// A box for each method, a panel a metric, of the first group of trials.
+/// A box for each method, a panel a metric, of the first group of trials; of methods that are far apart on a logarithmic axis.
 inline void draw_boxes(const std::filesystem::path& file, const Study& study, const Results& results, std::size_t map) {
   std::vector<examples::Chart> panels;
   for (const std::string& metric : study.tables) {
     examples::Chart panel{.title = study.maps[map].name, .y_label = metric,
                           .x_range = {{0.5, static_cast<double>(study.methods.size()) + 0.5}}, .legend = "off", .lines_below = 3.5};
+    std::vector<double> medians;
+    bool is_positive = true;
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
       panel.names.push_back(study.methods[method].name);
-      examples::add_box(panel, static_cast<double>(method + 1), results.values(map, method, metric, &study.trials.front()), detail::color_of(method), "#999999");
+      const std::vector<double> values = results.values(map, method, metric, &study.trials.front());
+      if (values.empty()) continue;
+      medians.push_back(examples::median(values));
+      is_positive = is_positive && *std::min_element(values.begin(), values.end()) > 0.0;
+      examples::add_box(panel, static_cast<double>(method + 1), values, detail::color_of(method), "#999999");
     }
+    panel.y_logarithmic = is_positive && detail::needs_logarithm(medians);
     if (!panel.series.empty()) panels.push_back(std::move(panel));
   }
   examples::write_chart_png(file, panels, {.columns = 2, .panel_height_px = 480});

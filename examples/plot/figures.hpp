@@ -61,7 +61,7 @@ namespace plot {
           .x_label = x_label,
           .y_label = y_label,
           .legend = legend_of("below center horizontal maxcols " + std::to_string(columns), longest, letters),
-          .lines_below = 4.3 + 1.2 * static_cast<double>(rows)};
+          .lines_below = examples::lines_below_legend(rows)};
 }
 
 [[nodiscard]] inline std::vector<std::string> titles_of(const Comparison& comparison) {

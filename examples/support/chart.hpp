@@ -48,10 +48,14 @@ struct Chart {
   /// panel.
   std::string legend = "below center horizontal maxcols 3";
   bool equal_axes = false;  ///< one unit is as long on y as on x
-  double lines_below = 6.5;           ///< room for the tics, the label of x and a legend below, in lines of text
-  std::vector<std::string> names = {};  ///< of the places 1, 2, ... on x, instead of numbers
+  bool y_logarithmic = false;  ///< y is above 0 then
+  double lines_below = 6.5;    ///< room for the tics, the label of x and a legend below, in lines of text
+  std::vector<std::string> names = {};  ///< of the places 1, 2, ... on x, instead of numbers; slanted where they are long
   bool only_legend = false;             ///< nothing but the names of the series
 };
+
+/// The lines_below that a legend of so many rows needs.
+[[nodiscard]] inline double lines_below_legend(std::size_t rows) { return 4.3 + 1.2 * static_cast<double>(rows); }
 
 /// How panels are put together.
 struct ChartLayout {
@@ -111,6 +115,17 @@ inline std::string fault_of(const Series& series) {
   return "";
 }
 
+/// The places 1, 2, ... on x, under their names.
+inline std::string names_script(const std::vector<std::string>& names) {
+  std::size_t longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, name.size());
+  constexpr std::size_t letters = 70;  // that fit beside each other
+  std::string text = "set xtics ";
+  if (longest * names.size() > letters) text += "rotate by 20 right ";
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "(" : ", ") + quoted(names[i]) + ' ' + std::to_string(i + 1);
+  return text + ")\n";
+}
+
 /// Whether there is anything to draw.
 inline bool has_points(const Chart& chart) {
   return std::any_of(chart.series.begin(), chart.series.end(), [](const Series& series) {
@@ -128,19 +143,16 @@ inline std::string panel_script(const Chart& chart, std::size_t block) {
   out << "set title " << quoted(chart.title) << "\nset xlabel " << quoted(chart.x_label) << "\nset ylabel " << quoted(chart.y_label)
       << "\nset size " << (chart.equal_axes ? "ratio -1" : "noratio") << "\nset bmargin";
   if (is_below) out << ' ' << chart.lines_below;
-  out << "\nset border 3 lw 1.2\nset tics nomirror out\nset xtics nomirror out autofreq\nset ytics nomirror out autofreq\n"
+  out << "\nset border 3 lw 1.2\nset tics nomirror out\nset xtics nomirror out autofreq norotate\nset ytics nomirror out autofreq\n"
       << "set grid lw 0.8 lc rgb '#dddddd' lt 1\nunset label\n";
-  if (!chart.names.empty()) {
-    out << "set xtics (";
-    for (std::size_t i = 0; i < chart.names.size(); ++i) out << (i == 0 ? "" : ", ") << quoted(chart.names[i]) << ' ' << i + 1;
-    out << ")\n";
-  }
+  if (!chart.names.empty()) out << names_script(chart.names);
   if (chart.only_legend) {
     out << "unset border\nunset tics\nunset grid\n";
   } else if (!has_points(chart)) {
     out << "unset tics\nunset grid\nset label 'nothing to draw' at graph 0.5,0.5 center\n";
   }
   const bool is_blank = chart.only_legend || !has_points(chart);
+  out << (chart.y_logarithmic && !is_blank ? "set" : "unset") << " logscale y\n";
   out << "set xrange " << (is_blank ? "[0:1]" : range(chart.x_range)) << "\nset yrange " << (is_blank ? "[0:1]" : range(chart.y_range)) << '\n'
       << (chart.legend == "off" ? "unset key" : "set key " + std::string(is_below ? "" : "inside ") + chart.legend +
                                                     " reverse Left samplen 2.5 spacing 1.1")
