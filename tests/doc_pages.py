@@ -5,7 +5,8 @@
   safety, models or check;
 - a name in code font on those pages and on docs/equations.md that the headers do not have, and a path that does not exist;
 - a C++ block on the concepts' pages that does not compile (--compiler CXX);
-- a picture under docs/ without its line in docs/pictures.md, a line without its picture, a command that runs no example;
+- a picture under docs/ without its line in docs/pictures.md (a line may name many, by `*`), a line without its picture, a command that runs
+  no example;
 - a link of README.md, CONTRIBUTING.md and docs/ to a file that is not there.
 
 docs/citations.md is checked by docs/citations.py --check."""
@@ -14,6 +15,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -106,11 +108,12 @@ def check_pictures():
     pictures = {str(path.relative_to(DOCS)) for path in DOCS.rglob("*.png")}
     if not pictures:
         report(page, 1, "no picture was found")
-    for picture in sorted(pictures - set(listed)):
-        report(page, 1, f"{picture} has no line")
-    for picture, (line, command) in listed.items():
-        if picture not in pictures:
-            report(page, line, f"there is no docs/{picture}")
+    for picture in sorted(pictures):
+        if not any(fnmatchcase(picture, pattern) for pattern in listed):
+            report(page, 1, f"{picture} has no line")
+    for pattern, (line, command) in listed.items():
+        if not any(fnmatchcase(picture, pattern) for picture in pictures):
+            report(page, line, f"there is no docs/{pattern}")
         run = re.fullmatch(r"examples/run((?: [^ ]+)*)", command)
         words = run.group(1).split() if run else []
         example = words[0] if words and not words[0].startswith("-") else "kth_explorer"
