@@ -39,12 +39,12 @@ namespace detail {
   return values;
 }
 
-/// Whether a linear axis would press some of these values flat: all are above 0, and the largest is many times the smallest.
+/// Whether a linear axis would press some of these values, which are above 0, flat: the largest is many times the smallest.
 [[nodiscard]] inline bool needs_logarithm(const std::vector<double>& values) {
   constexpr double times = 20.0;
   if (values.empty()) return false;
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  return *least > 0.0 && *greatest > times * *least;
+  return *greatest > times * *least;
 }
 
 }  // namespace detail
