@@ -14,7 +14,8 @@ namespace incognita {
 /// Parameters of scan_consistency.
 struct ConsistencyParams {
   std::size_t beams_max = 60;    ///< so many, evenly chosen, are looked at; >= 1
-  double tolerance_m = 0.15;     ///< a surface this near to where a beam ends explains it
+  double tolerance_m = 0.15;     ///< a surface this near to where a beam ends explains it; see tolerance_cells
+  double tolerance_cells = 1.5;  ///< no less than so many cells, whatever tolerance_m: a map knows no surface better, >= 0
   float occupied_above = 2.0F;   ///< log-odds of a cell that is certainly a surface ...
   float free_below = -2.0F;      ///< ... and log-odds of one that is certainly not
   std::size_t beams_min = 12;    ///< fewer that the map can judge say nothing
@@ -24,6 +25,7 @@ struct ConsistencyParams {
   void validate() const {
     require(beams_max >= 1, "ConsistencyParams", "beams_max", static_cast<int>(beams_max), ">= 1");
     require_positive("ConsistencyParams", "tolerance_m", tolerance_m);
+    require_non_negative("ConsistencyParams", "tolerance_cells", tolerance_cells);
     require(occupied_above > 0.0F, "ConsistencyParams", "occupied_above", static_cast<double>(occupied_above), "> 0");
     require(free_below < 0.0F, "ConsistencyParams", "free_below", static_cast<double>(free_below), "< 0");
     require(share_min >= 0.0 && share_min <= 1.0, "ConsistencyParams", "share_min", share_min, "in [0, 1]");
@@ -33,8 +35,8 @@ struct ConsistencyParams {
   template <class Fields>
   void list_fields(Fields& fields) const {
     fields(
-        "beams_max, tolerance_m, occupied_above, free_below, beams_min, share_min",
-        beams_max, tolerance_m, occupied_above, free_below, beams_min, share_min);
+        "beams_max, tolerance_m, tolerance_cells, occupied_above, free_below, beams_min, share_min",
+        beams_max, tolerance_m, tolerance_cells, occupied_above, free_below, beams_min, share_min);
   }
 };
 
@@ -67,6 +69,7 @@ template <class MapType>
   ScanConsistency result;
   const Eigen::Vector2d origin = T_map_sensor.position();
   const Eigen::Matrix2d rotation = T_map_sensor.rotation();
+  const double tolerance_m = std::max(params.tolerance_m, params.tolerance_cells * map.lattice().resolution_m());
   const std::size_t stride = std::max<std::size_t>(1, (scan.size() + params.beams_max - 1) / params.beams_max);
   for (std::size_t beam = 0; beam < scan.size(); beam += stride) {
     const Reading reading = scan.reading(beam);
@@ -76,16 +79,16 @@ template <class MapType>
     bool meets_surface = false;
     bool ends_in_free = true;
     double along_m = 0.0;
-    traverse<2>(map.lattice(), origin, sum(origin, scaled(direction, range_m + params.tolerance_m)),
+    traverse<2>(map.lattice(), origin, sum(origin, scaled(direction, range_m + tolerance_m)),
                 [&](const Index<2>& index) {
                   const float log_odds = map.log_odds(index);
                   meets_surface = log_odds > params.occupied_above;
                   if (log_odds < params.free_below) return true;
                   along_m = dot(direction, difference(map.lattice().center_m(index), origin));
-                  if (along_m > range_m - params.tolerance_m) ends_in_free = false;
+                  if (along_m > range_m - tolerance_m) ends_in_free = false;
                   return !meets_surface;
                 });
-    if (meets_surface && along_m < range_m - params.tolerance_m) {
+    if (meets_surface && along_m < range_m - tolerance_m) {
       ++result.contradicting;
     } else if (reading == Reading::hit && meets_surface) {
       ++result.agreeing;
