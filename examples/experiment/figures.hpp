@@ -39,18 +39,16 @@ namespace detail {
   return values;
 }
 
-/// Whether a linear axis would press some of these values, which are above 0, flat: the largest is many times the smallest.
-[[nodiscard]] inline bool needs_logarithm(const std::vector<double>& values) {
+/// Whether a linear axis that reaches up to `greatest` would press some of the medians, which are above 0, flat.
+[[nodiscard]] inline bool needs_logarithm(const std::vector<double>& medians, double greatest) {
   constexpr double times = 20.0;
-  if (values.empty()) return false;
-  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  return *greatest > times * *least;
+  return !medians.empty() && greatest > times * *std::min_element(medians.begin(), medians.end());
 }
 
 }  // namespace detail
 
-/// Medians over time with a band from quartile to quartile, a panel a metric, of the first group of trials; of methods that end far apart on
-/// a logarithmic axis.
+/// Medians over time with a band from quartile to quartile, a panel a metric, of the first group of trials; where medians end far below
+/// others' quartiles, on a logarithmic axis.
 inline void draw_curves(const std::filesystem::path& file, const Study& study, const Results& results, std::size_t map) {
   constexpr std::size_t columns_of_legend = 3;
   const std::size_t rows_of_legend = (study.methods.size() + columns_of_legend - 1) / columns_of_legend;
@@ -59,6 +57,7 @@ inline void draw_curves(const std::filesystem::path& file, const Study& study, c
     examples::Chart panel{.title = study.maps[map].name, .x_label = "time (s)", .y_label = metric,
                           .lines_below = examples::lines_below_legend(rows_of_legend)};
     std::vector<double> last;
+    double greatest = 0.0;
     bool is_positive = true;
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
       const std::vector<Results::Done> rows = results.of(map, method, &study.trials.front());
@@ -76,36 +75,41 @@ inline void draw_curves(const std::filesystem::path& file, const Study& study, c
         curve.low.push_back(spread.lower_quartile);
         curve.high.push_back(spread.upper_quartile);
         is_positive = is_positive && spread.lower_quartile > 0.0;
+        greatest = std::max(greatest, spread.upper_quartile);
       }
       if (!curve.y.empty()) last.push_back(curve.y.back());
       panel.series.push_back(std::move(curve));
     }
-    panel.y_logarithmic = is_positive && detail::needs_logarithm(last);
+    panel.y_logarithmic = is_positive && detail::needs_logarithm(last, greatest);
     panels.push_back(std::move(panel));
   }
-  examples::write_chart_png(file, panels, {.columns = 2});
+  examples::write_chart_png(file, panels, {.columns = 2, .panel_width_px = 720, .panel_height_px = 540});
 }
 
-/// A box for each method, a panel a metric, of the first group of trials; of methods that are far apart on a logarithmic axis.
+/// A box for each method, a panel a metric, of the first group of trials; where medians are far below the greatest value, on a
+/// logarithmic axis.
 inline void draw_boxes(const std::filesystem::path& file, const Study& study, const Results& results, std::size_t map) {
   std::vector<examples::Chart> panels;
   for (const std::string& metric : study.tables) {
     examples::Chart panel{.title = study.maps[map].name, .y_label = metric,
                           .x_range = {{0.5, static_cast<double>(study.methods.size()) + 0.5}}, .legend = "off", .lines_below = 3.5};
     std::vector<double> medians;
+    double greatest = 0.0;
     bool is_positive = true;
     for (std::size_t method = 0; method < study.methods.size(); ++method) {
       panel.names.push_back(study.methods[method].name);
       const std::vector<double> values = results.values(map, method, metric, &study.trials.front());
       if (values.empty()) continue;
       medians.push_back(examples::median(values));
-      is_positive = is_positive && *std::min_element(values.begin(), values.end()) > 0.0;
+      const auto [least, most] = std::minmax_element(values.begin(), values.end());
+      is_positive = is_positive && *least > 0.0;
+      greatest = std::max(greatest, *most);
       examples::add_box(panel, static_cast<double>(method + 1), values, detail::color_of(method), "#999999");
     }
-    panel.y_logarithmic = is_positive && detail::needs_logarithm(medians);
+    panel.y_logarithmic = is_positive && detail::needs_logarithm(medians, greatest);
     if (!panel.series.empty()) panels.push_back(std::move(panel));
   }
-  examples::write_chart_png(file, panels, {.columns = 2, .panel_height_px = 480});
+  examples::write_chart_png(file, panels, {.columns = 2, .panel_width_px = 600, .panel_height_px = 400});
 }
 
 /// The floor with corridors shaded, once for each method, with the way of the first trial.
@@ -120,7 +124,7 @@ inline void draw_ways(const std::filesystem::path& file, const Study& study, con
   const Eigen::Vector2d step_m(1.03 * size_m.x(), size_m.y() + 0.06 * std::max(size_m.x(), size_m.y()));
   const std::size_t columns = std::min<std::size_t>(study.methods.size(), size_m.x() > 1.6 * size_m.y() ? 2 : 3);
   const std::size_t rows = (study.methods.size() + columns - 1) / columns;
-  examples::Drawing drawing({{0.0, 0.0}, {static_cast<double>(columns) * step_m.x(), static_cast<double>(rows) * step_m.y()}});
+  examples::Drawing drawing({{0.0, 0.0}, {static_cast<double>(columns) * step_m.x(), static_cast<double>(rows) * step_m.y()}}, 1200, 1200.0);
   for (std::size_t method = 0; method < study.methods.size(); ++method) {
     const Eigen::Vector2d corner_m(static_cast<double>(method % columns) * step_m.x(), static_cast<double>(rows - 1 - method / columns) * step_m.y());
     const Eigen::Vector2d shift_m = corner_m - low_m;
@@ -136,8 +140,10 @@ inline void draw_ways(const std::filesystem::path& file, const Study& study, con
     }
     drawing.text(corner_m + Eigen::Vector2d(0.0, size_m.y()), study.methods[method].name, ink, 16.0, {2.0, 5.0});
   }
-  drawing.legend({{"walls", ink, examples::Swatch::area}, {"corridors", corridor, examples::Swatch::area},
-                  {"a robot's way", way_color, examples::Swatch::line}, {"its start", way_color, examples::Swatch::dot}});
+  std::vector<examples::LegendEntry> legend{{"walls", ink, examples::Swatch::area}, {"a robot's way", way_color, examples::Swatch::line},
+                                            {"its start", way_color, examples::Swatch::dot}};
+  if (!arena.uses.box().empty()) legend.push_back({"corridors", corridor, examples::Swatch::area});
+  drawing.legend(legend);
   drawing.write_png(file);
 }
 
