@@ -23,7 +23,7 @@ struct Options {
 /// Throws CLI::ParseError; one whose exit code is 0 asks for the help text.
 [[nodiscard]] inline Options parse_options(CLI::App& app, int argc, char** argv) {
   Options options;
-  app.add_option("study", options.study, "a study in TOML, or one that is shipped: quick, ablation, ablation-paper, coupling, alpha, scaling")
+  app.add_option("study", options.study, "a study in TOML, or one that is shipped: quick, ablation, ablation-paper, cells, coupling, alpha, scaling")
       ->type_name("STUDY")
       ->required()
       ->check(examples::refuse_empty);

@@ -26,6 +26,7 @@ struct Settings {
   double filter_occupied_m = 0.1;      ///< the root of R_o
   double filter_unoccupied_m = 3.0;    ///< the root of R_u
   std::string imagined_tempering = "beams";  ///< what imagined scans are divided by; hits is (11)
+  bool doubts_scans = true;            ///< leaves out scans that contradict the map, and looks where else they fit
   bool compass = true;                 ///< headings from walls
   double heading_sigma_rad = 0.0;      ///< of a heading that is measured at each scan; 0: none is
 
@@ -82,6 +83,7 @@ struct Field {
       Field{"filter_occupied_m", &Settings::filter_occupied_m, {1e-6, 100}},
       Field{"filter_unoccupied_m", &Settings::filter_unoccupied_m, {1e-6, 1000}},
       Field{"imagined_tempering", &Settings::imagined_tempering, {}, {"beams", "hits"}},
+      Field{"doubts_scans", &Settings::doubts_scans},
       Field{"compass", &Settings::compass},
       Field{"heading_sigma_rad", &Settings::heading_sigma_rad, {0, 1}},
       Field{"entropy", &Settings::entropy, {}, {"behavioral", "shannon", "renyi", "tsallis"}},

@@ -65,6 +65,10 @@ DvlEkf::Params make_ekf_params(const Settings& settings) {
   params.coupled = settings.filter == "coupled";
   params.form = settings.form == "ray" ? DvlEkf::Form::ray : DvlEkf::Form::registration;
   params.uses_compass = settings.compass;
+  if (!settings.doubts_scans) {
+    params.consistency.share_min = 0.0;    // no scan contradicts the map,
+    params.relocation.share_margin = 1.0;  // nor is any unusual
+  }
   params.registration.gamma = settings.gamma;
   params.registration.dvl = {squared(settings.filter_occupied_m), squared(settings.filter_unoccupied_m)};
   params.imagined.tempering = settings.imagined_tempering == "hits" ? Tempering::hits : Tempering::beams;

@@ -97,7 +97,7 @@ for shipped in quick alpha; do
   grep -q '^0 of [1-9][0-9]* missions are in this report\.$' "shipped_$shipped/report.md" || fail "$shipped: the report says something else"
 done
 if [ -d "$data" ]; then
-  for shipped in ablation ablation-paper coupling; do
+  for shipped in ablation ablation-paper cells coupling; do
     "$program" $shipped --quiet --report --data "$data" --output "shipped_$shipped" >stdout 2>stderr || fail "$shipped: $(cat stderr)"
   done
 else
