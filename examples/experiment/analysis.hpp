@@ -1,4 +1,4 @@
-/// What rows say: values of a method on a map, differences on the same starts and seeds, and claims judged by them.
+/// What rows say: values of a method on a map, differences or ratios on the same starts and seeds, and claims judged by them.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class Results {
     return values;
   }
 
-  /// What `better` has beyond `worse` for each start and seed of a group that has both, on one map.
+  /// What `better` has beyond `worse` for each start and seed of a group that has both, on one map; of ratios the logarithms, of those that have one.
   [[nodiscard]] std::vector<double> differences(std::size_t map, const Claim& claim, const TrialGroup& group) const {
     std::map<std::tuple<std::size_t, int, int>, double> known;
     for (const Done& done : units_) {
@@ -73,7 +73,9 @@ class Results {
         };
         const auto better = value_of(claim.better);
         const auto worse = value_of(claim.worse);
-        if (better && worse) differences.push_back(*better - *worse);
+        if (!better || !worse) continue;
+        const double difference = claim.is_of_ratios ? std::log(*better / *worse) : *better - *worse;
+        if (std::isfinite(difference)) differences.push_back(difference);
       }
     }
     return differences;
@@ -94,7 +96,7 @@ enum class Verdict { holds, does_not_hold, undecided };
 struct Judgement {
   Verdict verdict = Verdict::undecided;
   std::size_t pairs = 0;
-  examples::MeanInterval difference;  ///< better - worse
+  examples::MeanInterval difference;  ///< better - worse, or the logarithm of better / worse
 };
 
 /// By the differences on the same starts and seeds, of each map that is judged. A claim holds where the whole interval of their mean is on its

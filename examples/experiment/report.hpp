@@ -30,6 +30,13 @@ namespace detail {
   return digits(mean.mean) + " [" + digits(mean.interval->low) + ", " + digits(mean.interval->high) + ']';
 }
 
+/// The ratio that is the mean of logarithms.
+[[nodiscard]] inline examples::MeanInterval ratio_of(examples::MeanInterval logarithm) {
+  if (logarithm.interval) logarithm.interval = examples::Interval{std::exp(logarithm.interval->low), std::exp(logarithm.interval->high)};
+  logarithm.mean = std::exp(logarithm.mean);
+  return logarithm;
+}
+
 /// The methods' means with their intervals, and the medians; how many missions have a value, where not all have.
 [[nodiscard]] inline std::string table_text(const Study& study, const Results& results, std::size_t map, const TrialGroup& group) {
   std::string text = "| method | missions |";
@@ -58,9 +65,10 @@ namespace detail {
       "**opposite** does where it is on the other; else, and with fewer than " +
       std::to_string(examples::interval_values_min) +
       " pairs on a map, it is undecided. Where nothing is true, one interval in twenty still leaves 0 out. All maps count alike, whatever their "
-      "size.\n\n";
+      "size. Ratios (/) are judged by the mean of their logarithms, for which an error ten times as large is as bad as one a tenth is good; their side "
+      "is that of 1.\n\n";
   for (const TrialGroup& group : study.trials) {
-    text += "Trials \"" + group.name + "\":\n\n| claim | difference of |";
+    text += "Trials \"" + group.name + "\":\n\n| claim | difference or ratio of |";
     std::string rule = "|---|---|";
     for (const StudyMap& map : study.maps) {
       text += ' ' + map.name + " |";
@@ -68,10 +76,12 @@ namespace detail {
     }
     text += " all maps |\n" + rule + "---|\n";
     for (const Claim& claim : study.claims) {
-      text += "| " + claim.says + " | " + claim.metric + ", " + study.name_of(claim.better) + " - " + study.name_of(claim.worse) + " |";
+      text += "| " + claim.says + " | " + claim.metric + ", " + study.name_of(claim.better) + (claim.is_of_ratios ? " / " : " - ") + study.name_of(claim.worse) +
+              " |";
       const auto cell = [&](const std::vector<std::vector<double>>& differences) {
         const Judgement judgement = judge(claim, differences);
-        text += std::string(" **") + words_of(judgement.verdict) + "** " + (judgement.pairs > 0 ? interval_text(judgement.difference) + ", " : "") +
+        const examples::MeanInterval shown = claim.is_of_ratios ? ratio_of(judgement.difference) : judgement.difference;
+        text += std::string(" **") + words_of(judgement.verdict) + "** " + (judgement.pairs > 0 ? interval_text(shown) + ", " : "") +
                 std::to_string(judgement.pairs) + " pairs |";
       };
       std::vector<std::vector<double>> of_all;

@@ -49,6 +49,7 @@ struct Claim {
   Side worse;   ///< ... than this
   bool is_less = true;
   std::vector<std::size_t> maps;  ///< where it is said to hold
+  bool is_of_ratios = false;      ///< of better / worse, by its logarithm, instead of better - worse
 };
 
 /// One mission: indices into the study, and which trial.

@@ -310,7 +310,7 @@ class StudyReader {
   }
 
   void add_claim(const toml::table& table) {
-    allow(table, {"says", "metric", "less", "more", "than", "maps"});
+    allow(table, {"says", "metric", "less", "more", "than", "maps", "as"});
     Claim claim;
     claim.says = text(table, "says");
     claim.metric = text(table, "metric");
@@ -319,6 +319,11 @@ class StudyReader {
     if (claim.is_less == table.contains("more")) fail(table, "a claim has either less or more, and than");
     claim.better = side(table, claim.is_less ? "less" : "more");
     claim.worse = side(table, "than");
+    if (table.contains("as")) {
+      require_known(*table.get("as"), "as", text(table, "as"), {"difference", "ratio"});
+      claim.is_of_ratios = text(table, "as") == "ratio";
+      if (claim.is_of_ratios && claim.better.size() + claim.worse.size() > 2) fail(*table.get("as"), "a ratio is of one method and one other");
+    }
     if (table.contains("maps")) {
       claim.maps = indices(table, "maps", study_.maps);
     } else {

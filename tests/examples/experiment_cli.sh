@@ -78,6 +78,10 @@ study extra '[robots]' 'many = true'
 refused "a table that is not there" 'extra.toml:20: there is no key "robots" here' extra.toml
 study extra '[[claim]]' 'says = "x"' 'metric = "nees"' 'less = ["A5"]' 'than = "A1"'
 refused "a list of one method" 'extra.toml:23: less must be a method, or a list of two' extra.toml
+study extra '[[claim]]' 'says = "x"' 'metric = "nees"' 'less = "A5"' 'than = "A1"' 'as = "share"'
+refused "a claim of another kind" 'extra.toml:25: as is "share", but must be one of difference, ratio' extra.toml
+study extra '[[claim]]' 'says = "x"' 'metric = "nees"' 'less = ["A5", "A1"]' 'than = "A1"' 'as = "ratio"'
+refused "a ratio of three" 'extra.toml:25: a ratio is of one method and one other' extra.toml
 study extra '[[claim]]' 'says = "x"' 'metric = "nees"' 'less = "A5"' 'than = "A1"' 'maps = ["castle"]'
 refused "a claim on a map that is not there" 'extra.toml:25: maps is "castle", but must be one of office' extra.toml
 study extra '[[method]]' 'name = "A2"' 'robot_radius_m = 0.6' 'range_max_m = 0.5'

@@ -115,6 +115,26 @@ TEST_CASE("claims are judged by differences on the same starts and seeds") {
   CHECK(Results(study, {rows[0], rows[1], rows[4]}).differences(0, claim, group).size() == 1);
 }
 
+TEST_CASE("claims of ratios are judged by logarithms") {
+  const Study study = two_methods();
+  // In one trial of six both err a hundred times as much, which hides from a mean of differences that b errs twice as much in all others.
+  const auto rows = rows_of(study, [](const Unit& unit) {
+    if (unit.map == 1) return unit.method == 0 ? 0.0 : 1.0;
+    if (unit.start == 1 && unit.seed == 1) return unit.method == 0 ? 110.0 : 100.0;
+    return unit.method == 0 ? 1.0 : 2.0;
+  });
+  const Results results(study, rows);
+  Claim claim{"a errs less", "error", {0}, {1}, true, {0, 1}};
+  CHECK(judge(claim, {results.differences(0, claim, study.trials.front())}).verdict == Verdict::undecided);
+  claim.is_of_ratios = true;
+  const std::vector<double> logarithms = results.differences(0, claim, study.trials.front());
+  REQUIRE(logarithms.size() == 6);
+  CHECK(logarithms.front() == Approx(std::log(1.1)));
+  CHECK(logarithms.back() == Approx(-std::log(2.0)));
+  CHECK(judge(claim, {logarithms}).verdict == Verdict::holds);
+  CHECK(results.differences(1, claim, study.trials.front()).empty());  // a ratio to nothing has no logarithm
+}
+
 TEST_CASE("what has failed is in no value, and a unit counts once") {
   const Study study = two_methods();
   auto rows = rows_of(study, [](const Unit&) { return 1.0; });
