@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -16,10 +17,10 @@
 
 namespace experiment {
 
-/// The rows of a study by unit; those of other studies' units are left out.
+/// The rows of a study by unit, which must live as long; those of other studies' units are left out.
 class Results {
  public:
-  Results(const Study& study, const std::vector<Row>& rows) : study_(study) {
+  Results(const Study& study, const std::vector<Row>& rows) {
     std::map<UnitKey, const Row*> by_key;
     for (const Row& row : rows) by_key[row.key] = &row;
     for (const Unit& unit : study.units()) {
@@ -55,62 +56,85 @@ class Results {
     return values;
   }
 
-  /// What `better` has beyond `worse` for each start and seed of a group that has both, on one map; of ratios the logarithms, of those that have one.
-  [[nodiscard]] std::vector<double> differences(std::size_t map, const Claim& claim, const TrialGroup& group) const {
+  /// What the sides of a claim have in the same trial, better and worse: their values, of ratios the logarithms; of two methods, how much they differ.
+  using Pair = std::array<double, 2>;
+
+  /// A pair for each trial of a group on one map that both sides have; where it has several starts and several seeds, for each start their mean,
+  /// as seeds from one start are alike.
+  [[nodiscard]] std::vector<Pair> pairs(std::size_t map, const Claim& claim, const TrialGroup& group) const {
     std::map<std::tuple<std::size_t, int, int>, double> known;
     for (const Done& done : units_) {
       if (done.unit.map != map || !has(group, done.unit)) continue;
-      if (const auto value = done.row->metric(claim.metric)) known[{done.unit.method, done.unit.start, done.unit.seed}] = *value;
+      const auto value = done.row->metric(claim.metric);
+      if (value) known[{done.unit.method, done.unit.start, done.unit.seed}] = claim.is_of_ratios ? std::log(*value) : *value;
     }
-    std::vector<double> differences;
+    std::vector<Pair> all;
     for (const int start : group.starts) {
+      std::vector<Pair> of_start;
       for (const int seed : group.seeds) {
         const auto value_of = [&](const Side& side) -> std::optional<double> {
           const auto first = known.find({side.front(), start, seed});
           const auto last = known.find({side.back(), start, seed});
           if (first == known.end() || last == known.end()) return std::nullopt;
-          return side.size() == 1 ? first->second : std::abs(first->second - last->second);
+          return side.size() == 1 ? first->second : first->second - last->second;
         };
         const auto better = value_of(claim.better);
         const auto worse = value_of(claim.worse);
-        if (!better || !worse) continue;
-        const double difference = claim.is_of_ratios ? std::log(*better / *worse) : *better - *worse;
-        if (std::isfinite(difference)) differences.push_back(difference);
+        if (better && worse && std::isfinite(*better) && std::isfinite(*worse)) of_start.push_back({*better, *worse});
       }
+      if (!are_grouped(group) || of_start.empty()) {
+        all.insert(all.end(), of_start.begin(), of_start.end());
+        continue;
+      }
+      Pair mean{};
+      for (const Pair& pair : of_start) {
+        mean[0] += pair[0] / static_cast<double>(of_start.size());
+        mean[1] += pair[1] / static_cast<double>(of_start.size());
+      }
+      all.push_back(mean);
     }
-    return differences;
+    return all;
+  }
+
+  /// How many pairs a group has when all its trials are there.
+  [[nodiscard]] static std::size_t pairs_max(const TrialGroup& group) {
+    return are_grouped(group) ? group.starts.size() : group.starts.size() * group.seeds.size();
   }
 
  private:
+  static bool are_grouped(const TrialGroup& group) { return group.starts.size() > 1 && group.seeds.size() > 1; }
+
   static bool has(const TrialGroup& group, const Unit& unit) {
     const auto contains = [](const std::vector<int>& all, int value) { return std::find(all.begin(), all.end(), value) != all.end(); };
     return contains(group.starts, unit.start) && contains(group.seeds, unit.seed);
   }
 
-  const Study& study_;
   std::vector<Done> units_;
 };
 
-enum class Verdict { holds, does_not_hold, undecided };
+enum class Verdict { holds, opposite, undecided };
 
 struct Judgement {
   Verdict verdict = Verdict::undecided;
   std::size_t pairs = 0;
-  examples::MeanInterval difference;  ///< better - worse, or the logarithm of better / worse
+  examples::MeanInterval difference;  ///< better - worse; of ratios its logarithm; of two methods each, |mean difference| - |mean difference|
 };
 
-/// By the differences on the same starts and seeds, of each map that is judged. A claim holds where the whole interval of their mean is on its
-/// side of 0, does not where it is on the other side, and is undecided where 0 is within, or where there are too few pairs for an interval.
-[[nodiscard]] inline Judgement judge(const Claim& claim, const std::vector<std::vector<double>>& differences_of_maps) {
+/// By the pairs of each map that is judged. A claim holds where the whole interval of the difference is on its side of 0, its opposite does where it is
+/// on the other side, and it is undecided where 0 is within, or where there are too few pairs for an interval.
+[[nodiscard]] inline Judgement judge(const Claim& claim, const std::vector<std::vector<Results::Pair>>& pairs_of_maps) {
   Judgement judgement;
-  const bool lacks_map = std::any_of(differences_of_maps.begin(), differences_of_maps.end(), [](const auto& of_map) { return of_map.empty(); });
-  if (differences_of_maps.empty() || lacks_map) return judgement;
-  for (const std::vector<double>& differences : differences_of_maps) judgement.pairs += differences.size();
-  judgement.difference = examples::bootstrapped_mean(differences_of_maps);
+  for (const auto& pairs : pairs_of_maps) judgement.pairs += pairs.size();
+  const bool lacks_map = std::any_of(pairs_of_maps.begin(), pairs_of_maps.end(), [](const auto& pairs) { return pairs.empty(); });
+  if (pairs_of_maps.empty() || lacks_map) return judgement;
+  const bool is_of_differences = claim.better.size() > 1;
+  judgement.difference = examples::bootstrapped(pairs_of_maps, [is_of_differences](const Results::Pair& means) {
+    return is_of_differences ? std::abs(means[0]) - std::abs(means[1]) : means[0] - means[1];
+  });
   if (const auto& interval = judgement.difference.interval) {
     const bool is_below = interval->high < 0.0;
     const bool is_above = interval->low > 0.0;
-    if (is_below || is_above) judgement.verdict = is_below == claim.is_less ? Verdict::holds : Verdict::does_not_hold;
+    if (is_below || is_above) judgement.verdict = is_below == claim.is_less ? Verdict::holds : Verdict::opposite;
   }
   return judgement;
 }
@@ -118,7 +142,7 @@ struct Judgement {
 [[nodiscard]] inline const char* words_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::holds: return "holds";
-    case Verdict::does_not_hold: return "the opposite";
+    case Verdict::opposite: return "the opposite";
     case Verdict::undecided: return "undecided";
   }
   return "";

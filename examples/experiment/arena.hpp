@@ -23,13 +23,14 @@ class Arena {
  public:
   incognita::World world;
   incognita::Grid<FloorUse, 2> uses;  ///< empty where nothing is asked of corridors
-  std::uint32_t checksum;  ///< of the plan's pixels
+  std::uint32_t checksum;  ///< of the plan's pixels, and where they lie
 
   explicit Arena(const StudyMap& map)
       : world(load_plan(map)),
         uses(map.corridor_max_m ? floor_uses(world.plan(), *map.corridor_max_m) : incognita::Grid<FloorUse, 2>(world.plan().lattice())) {
     incognita::StateWriter writer;
-    writer(world.plan());
+    const auto& lattice = world.plan().lattice();
+    writer(world.plan(), lattice.resolution_m(), lattice.origin_m().x(), lattice.origin_m().y());
     checksum = incognita::checksum(writer.bytes());
   }
 

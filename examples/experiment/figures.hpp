@@ -112,7 +112,32 @@ inline void draw_boxes(const std::filesystem::path& file, const Study& study, co
   examples::write_chart_png(file, panels, {.columns = 2, .panel_width_px = 600, .panel_height_px = 400});
 }
 
-/// The floor with corridors shaded, once for each method, with the way of the first trial.
+namespace detail {
+
+/// Each method's row of the first trial that all have; where there is none, each one's first. Null where a method has no row.
+[[nodiscard]] inline std::vector<const Row*> rows_of_one_trial(const Study& study, const Results& results, std::size_t map) {
+  std::vector<std::vector<Results::Done>> all;
+  for (std::size_t method = 0; method < study.methods.size(); ++method) all.push_back(results.of(map, method));
+  std::vector<const Row*> rows;
+  for (const Results::Done& tried : all.front()) {
+    rows.clear();
+    for (const auto& of_method : all) {
+      const auto same = std::find_if(of_method.begin(), of_method.end(), [&tried](const Results::Done& done) {
+        return done.unit.start == tried.unit.start && done.unit.seed == tried.unit.seed;
+      });
+      if (same == of_method.end()) break;
+      rows.push_back(same->row);
+    }
+    if (rows.size() == all.size()) return rows;
+  }
+  rows.clear();
+  for (const auto& of_method : all) rows.push_back(of_method.empty() ? nullptr : of_method.front().row);
+  return rows;
+}
+
+}  // namespace detail
+
+/// The floor with corridors shaded, once for each method, with the way of the first trial that all have.
 inline void draw_ways(const std::filesystem::path& file, const Study& study, const Results& results, const Arena& arena, std::size_t map) {
   using incognita::FloorCell;
   constexpr examples::Color ink{0.15, 0.15, 0.15};
@@ -125,16 +150,16 @@ inline void draw_ways(const std::filesystem::path& file, const Study& study, con
   const std::size_t columns = std::min<std::size_t>(study.methods.size(), size_m.x() > 1.6 * size_m.y() ? 2 : 3);
   const std::size_t rows = (study.methods.size() + columns - 1) / columns;
   examples::Drawing drawing({{0.0, 0.0}, {static_cast<double>(columns) * step_m.x(), static_cast<double>(rows) * step_m.y()}}, 1200, 1200.0);
+  const std::vector<const Row*> trial = detail::rows_of_one_trial(study, results, map);
   for (std::size_t method = 0; method < study.methods.size(); ++method) {
     const Eigen::Vector2d corner_m(static_cast<double>(method % columns) * step_m.x(), static_cast<double>(rows - 1 - method / columns) * step_m.y());
     const Eigen::Vector2d shift_m = corner_m - low_m;
     const incognita::Pose2 shift{shift_m.x(), shift_m.y(), 0.0};
     drawing.raster(arena.uses, shift, [&](FloorUse use) { return use == FloorUse::corridor ? corridor : examples::transparent; });
     drawing.raster(plan, shift, [&](FloorCell cell) { return cell == FloorCell::wall ? ink : examples::transparent; });
-    const std::vector<Results::Done> done = results.of(map, method);
-    if (!done.empty()) {
+    if (trial[method] != nullptr) {
       std::vector<Eigen::Vector2d> way_m;
-      for (const auto& place : done.front().row->json.at("way_m")) way_m.emplace_back(shift_m + Eigen::Vector2d(place[0].get<double>(), place[1].get<double>()));
+      for (const auto& place : trial[method]->json.at("way_m")) way_m.emplace_back(shift_m + Eigen::Vector2d(place[0].get<double>(), place[1].get<double>()));
       drawing.polyline(way_m, way_color, 1.5);
       if (!way_m.empty()) drawing.marker(way_m.front(), way_color, 5.0);
     }

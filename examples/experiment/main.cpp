@@ -37,7 +37,7 @@ struct ReadyStudy {
   std::vector<Arena> arenas;
   std::vector<Unit> units;
 
-  explicit ReadyStudy(const Options& options) : study(read_study(study_file(options.study, INCOGNITA_STUDIES_DIR), options.data)) {
+  explicit ReadyStudy(const Options& options) : study(read_study(study_file(options.study, INCOGNITA_STUDIES_DIR), options.data, INCOGNITA_STUDIES_DIR)) {
     for (const StudyMap& map : study.maps) arenas.emplace_back(map);
     units = study.units();
     require_possible_units();
@@ -60,7 +60,7 @@ struct ReadyStudy {
           require_possible(settings);
           if (tried.emplace(map, settings.robot_radius_m).second) static_cast<void>(start_of_trial(arenas[map], settings, 1));
         } catch (const std::exception& problem) {
-          throw incognita::InputError(study.file.string() + ':' + std::to_string(study.methods[method].line),
+          throw incognita::InputError(study.methods[method].where,
                                       study.methods[method].name + " on " + study.maps[map].name + ": " + problem.what());
         }
       }

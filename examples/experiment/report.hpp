@@ -45,8 +45,10 @@ namespace detail {
   for (std::size_t n = 0; n < study.tables.size(); ++n) text += "---|";
   text += '\n';
   for (std::size_t method = 0; method < study.methods.size(); ++method) {
-    const std::size_t missions = results.of(map, method, &group).size();
-    text += "| " + study.methods[method].name + " | " + std::to_string(missions) + " |";
+    const std::vector<Results::Done> done = results.of(map, method, &group);
+    const std::size_t missions = done.size();
+    const auto lost = std::count_if(done.begin(), done.end(), [](const auto& each) { return each.row->json.at("stop_reason") == "lost"; });
+    text += "| " + study.methods[method].name + " | " + std::to_string(missions) + (lost > 0 ? ", " + std::to_string(lost) + " lost" : "") + " |";
     for (const std::string& metric : study.tables) {
       const std::vector<double> values = results.values(map, method, metric, &group);
       if (!values.empty()) text += ' ' + interval_text(examples::bootstrapped_mean(values)) + ", median " + digits(examples::median(values));
@@ -78,19 +80,20 @@ namespace detail {
     for (const Claim& claim : study.claims) {
       text += "| " + claim.says + " | " + claim.metric + ", " + study.name_of(claim.better) + (claim.is_of_ratios ? " / " : " - ") + study.name_of(claim.worse) +
               " |";
-      const auto cell = [&](const std::vector<std::vector<double>>& differences) {
-        const Judgement judgement = judge(claim, differences);
+      const auto cell = [&](const std::vector<std::vector<Results::Pair>>& pairs) {
+        const Judgement judgement = judge(claim, pairs);
+        const std::size_t pairs_max = pairs.size() * Results::pairs_max(group);
         const examples::MeanInterval shown = claim.is_of_ratios ? ratio_of(judgement.difference) : judgement.difference;
         text += std::string(" **") + words_of(judgement.verdict) + "** " + (judgement.pairs > 0 ? interval_text(shown) + ", " : "") +
-                std::to_string(judgement.pairs) + " pairs |";
+                std::to_string(judgement.pairs) + (judgement.pairs < pairs_max ? " of " + std::to_string(pairs_max) : "") + " pairs |";
       };
-      std::vector<std::vector<double>> of_all;
+      std::vector<std::vector<Results::Pair>> of_all;
       for (std::size_t map = 0; map < study.maps.size(); ++map) {
         if (std::find(claim.maps.begin(), claim.maps.end(), map) == claim.maps.end()) {
           text += " |";
           continue;
         }
-        of_all.push_back(results.differences(map, claim, group));
+        of_all.push_back(results.pairs(map, claim, group));
         cell({of_all.back()});
       }
       cell(of_all);
@@ -187,7 +190,7 @@ inline void write_report(const Study& study, const std::vector<Arena>& arenas, c
     if (!study.tables.empty()) {
       picture("boxes", "Boxes from quartile to quartile, whiskers to the extremes" + of_group, [&](const auto& file) { draw_boxes(file, study, results, map); });
     }
-    picture("ways", "The way of each method's first trial", [&](const auto& file) { draw_ways(file, study, results, arenas[map], map); });
+    picture("ways", "The ways of the first trial that all methods have", [&](const auto& file) { draw_ways(file, study, results, arenas[map], map); });
   }
   if (!costs.empty()) text += "## Cost\n\n" + detail::costs_text(study, results, costs);
   incognita::write_file_atomically(output.staged("report.md"), text);

@@ -68,8 +68,9 @@ struct Row {
   /// None where it has failed, or has none.
   [[nodiscard]] std::optional<double> metric(const std::string& name) const {
     if (has_failed()) return std::nullopt;
-    const auto& value = json.at("metrics").at(name);
-    return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+    const auto& metrics = json.at("metrics");
+    const auto value = metrics.find(name);
+    return value != metrics.end() && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
   }
 };
 

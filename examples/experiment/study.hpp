@@ -27,18 +27,18 @@ struct StudyMap {
 
 struct StudyMethod {
   std::string name;
-  std::string what;  ///< in words
-  int line = 0;      ///< of the study's file
+  std::string what;   ///< in words
+  std::string where;  ///< file and line of the study
 };
 
-/// Every start with every seed. Start n is the n-th pose drawn on the map, seed n the noise of sensors and odometry.
+/// Every start with every seed. Start n is a pose drawn on the map with n as the seed, seed n the noise of sensors and odometry.
 struct TrialGroup {
   std::string name;
   std::vector<int> starts;
   std::vector<int> seeds;
 };
 
-/// What a claim compares: what one method has of a metric, or by how much two differ, without sign.
+/// What a claim compares: what one method has of a metric on average, or by how much two differ on average, without sign.
 using Side = std::vector<std::size_t>;
 
 /// That one side has less (or more) of something than another.

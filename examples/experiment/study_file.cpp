@@ -26,7 +26,8 @@ namespace {
 /// Reads one study. What is wrong is said with the line that it is on.
 class StudyReader {
  public:
-  StudyReader(std::filesystem::path file, std::filesystem::path data) : file_(std::move(file)), data_(std::move(data)) {}
+  StudyReader(std::filesystem::path file, std::filesystem::path data, std::filesystem::path shipped)
+      : file_(std::move(file)), data_(std::move(data)), shipped_(std::move(shipped)) {}
 
   [[nodiscard]] Study read() {
     const toml::table root = with_what_it_is_like(parsed(file_));
@@ -37,7 +38,10 @@ class StudyReader {
     if (const toml::node* node = root.get("defaults")) {
       defaults = node->as_table();
       if (defaults == nullptr) fail(*node, "defaults is not a table");
-      for (auto&& [key, value] : *defaults) require_setting(key, {});
+      for (auto&& [key, value] : *defaults) {
+        require_setting(key, {});
+        require_not_of_methods(key);
+      }
     }
     const std::vector<const toml::table*> maps = tables(root, "map");
     const std::vector<const toml::table*> methods = tables(root, "method");
@@ -56,6 +60,11 @@ class StudyReader {
       allow(*report, {"tables", "curves"});
       study_.tables = metrics(*report, "tables", table_metrics());
       study_.curves = metrics(*report, "curves", curve_metrics());
+      const bool shows_corridors = std::find(study_.tables.begin(), study_.tables.end(), "corridor_share") != study_.tables.end();
+      const auto has_corridors = [](const StudyMap& map) { return map.corridor_max_m.has_value(); };
+      if (shows_corridors && std::none_of(study_.maps.begin(), study_.maps.end(), has_corridors)) {
+        fail(*report->get("tables"), "corridor_share is measured on no map, as none has a corridor_max_m");
+      }
     }
     return study_;
   }
@@ -74,9 +83,11 @@ class StudyReader {
 
  private:
   [[noreturn]] void fail(const toml::node& where, const std::string& problem) const { fail(where.source(), problem); }
-  [[noreturn]] void fail(const toml::source_region& where, const std::string& problem) const {
-    const std::string file = where.path ? *where.path : file_.string();
-    throw incognita::InputError(file + ':' + std::to_string(where.begin.line), problem);
+  [[noreturn]] void fail(const toml::source_region& where, const std::string& problem) const { throw incognita::InputError(place(where), problem); }
+
+  /// File and line: parts of a study may be of the one that it is like.
+  [[nodiscard]] std::string place(const toml::source_region& where) const {
+    return (where.path ? *where.path : file_.string()) + ':' + std::to_string(where.begin.line);
   }
 
   [[nodiscard]] toml::table parsed(const std::filesystem::path& file) const {
@@ -87,13 +98,14 @@ class StudyReader {
     }
   }
 
-  /// Each part that a study lacks is that of the one beside it that it is like.
+  /// Each part that a study lacks is that of the one that it is like, beside it or shipped.
   [[nodiscard]] toml::table with_what_it_is_like(toml::table own) const {
     if (!own.contains("like")) return own;
     const std::string like = text(own, "like");
-    const std::filesystem::path file = file_.parent_path() / (like + ".toml");
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) fail(*own.get("like"), "there is no study " + quoted(like) + " beside this one");
+    std::filesystem::path file = file_.parent_path() / (like + ".toml");
+    if (!std::filesystem::is_regular_file(file, error)) file = shipped_ / (like + ".toml");
+    if (!std::filesystem::is_regular_file(file, error)) fail(*own.get("like"), "there is no study " + quoted(like) + " beside this one, nor is one shipped");
     toml::table whole = parsed(file);
     if (whole.contains("like")) fail(*own.get("like"), "like names a study that is like another itself");
     own.erase("like");
@@ -194,6 +206,13 @@ class StudyReader {
     fail(key.source(), "there is no setting " + quoted(key.str()) + "; there are " + list_of(known));
   }
 
+  /// What a method is composed of, which would go before what maps or defaults say.
+  void require_not_of_methods(const toml::key& key) const {
+    for (const char* part : {"filter", "cells", "decision_cells"}) {
+      if (key.str() == part) fail(key.source(), std::string(part) + " is for a method to say");
+    }
+  }
+
   void set(Settings& settings, const Field& field, const toml::node& node) const {
     if (const auto* member = std::get_if<double Settings::*>(&field.member)) {
       settings.**member = number(node, field.name, field.bounds);
@@ -250,6 +269,10 @@ class StudyReader {
     if (table.contains("corridor_max_m")) map.corridor_max_m = number(*table.get("corridor_max_m"), "corridor_max_m", {0.3, 50});
     for (auto&& [key, value] : table) {
       require_setting(key, {"name", "file", "plan", "width_m", "height_m", "plan_seed", "corridor_max_m"});
+      require_not_of_methods(key);
+      for (const char* of_generated : {"width_m", "height_m", "plan_seed"}) {
+        if (key.str() == of_generated && map.plan != "generated") fail(key.source(), std::string(of_generated) + " is of generated plans alone");
+      }
     }
     study_.maps.push_back(std::move(map));
   }
@@ -265,8 +288,13 @@ class StudyReader {
       fail(table.contains("like") ? *table.get("like") : *table.get("name"),
            "there is no method " + quoted(like) + "; there are " + list_of(names));
     }
-    for (auto&& [key, value] : table) require_setting(key, {"name", "like", "what"});
-    study_.methods.push_back({called, text_or(table, "what", std::string(known->what)), static_cast<int>(table.source().begin.line)});
+    for (auto&& [key, value] : table) {
+      require_setting(key, {"name", "like", "what"});
+      for (const char* of_trials : {"robot_radius_m", "range_max_m", "duration_s"}) {
+        if (key.str() == of_trials) fail(key.source(), std::string(of_trials) + " is for defaults or a map to say, as methods are compared in the same trials");
+      }
+    }
+    study_.methods.push_back({called, text_or(table, "what", std::string(known->what)), place(table.source())});
   }
 
   /// What holds for all comes first, then what holds for the map, what the method is, and what it sets itself.
@@ -319,16 +347,26 @@ class StudyReader {
     if (claim.is_less == table.contains("more")) fail(table, "a claim has either less or more, and than");
     claim.better = side(table, claim.is_less ? "less" : "more");
     claim.worse = side(table, "than");
+    if (claim.better.size() != claim.worse.size()) fail(*table.get("than"), "a claim compares two methods, or two differences of methods");
+    if (claim.better == claim.worse) fail(*table.get("than"), "a claim compares something with itself");
     if (table.contains("as")) {
       require_known(*table.get("as"), "as", text(table, "as"), {"difference", "ratio"});
       claim.is_of_ratios = text(table, "as") == "ratio";
-      if (claim.is_of_ratios && claim.better.size() + claim.worse.size() > 2) fail(*table.get("as"), "a ratio is of one method and one other");
+      const bool may_be_zero = claim.metric == "decisions" || claim.metric == "collisions" || claim.metric == "corridor_share";
+      if (claim.is_of_ratios && may_be_zero) fail(*table.get("as"), claim.metric + " may be 0, and has no ratio");
+      if (claim.is_of_ratios && claim.better.size() > 1) fail(*table.get("as"), "a ratio is of two methods, not of differences");
     }
     if (table.contains("maps")) {
       claim.maps = indices(table, "maps", study_.maps);
+      if (claim.maps.empty()) fail(*table.get("maps"), "maps is empty");
     } else {
       claim.maps.resize(study_.maps.size());
       std::iota(claim.maps.begin(), claim.maps.end(), std::size_t{0});
+    }
+    for (const std::size_t map : claim.maps) {
+      if (claim.metric == "corridor_share" && !study_.maps[map].corridor_max_m) {
+        fail(*table.get("metric"), "corridor_share is not measured on the map " + quoted(study_.maps[map].name) + ", which has no corridor_max_m");
+      }
     }
     study_.claims.push_back(std::move(claim));
   }
@@ -383,7 +421,10 @@ class StudyReader {
 
   [[nodiscard]] std::vector<std::string> metrics(const toml::table& table, const char* key, const std::vector<std::string>& known) const {
     const std::vector<std::string> all = texts(table, key);
-    for (const std::string& metric : all) require_known(*table.get(key), key, metric, known);
+    for (const std::string& metric : all) {
+      require_known(*table.get(key), key, metric, known);
+      if (std::count(all.begin(), all.end(), metric) > 1) fail(*table.get(key), std::string(key) + " has " + quoted(metric) + " twice");
+    }
     return all;
   }
 
@@ -398,11 +439,14 @@ class StudyReader {
 
   std::filesystem::path file_;
   std::filesystem::path data_;
+  std::filesystem::path shipped_;
   Study study_;
 };
 
 }  // namespace
 
-Study read_study(const std::filesystem::path& file, const std::filesystem::path& data) { return StudyReader(file, data).read(); }
+Study read_study(const std::filesystem::path& file, const std::filesystem::path& data, const std::filesystem::path& shipped) {
+  return StudyReader(file, data, shipped).read();
+}
 
 }  // namespace experiment

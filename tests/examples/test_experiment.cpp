@@ -17,6 +17,7 @@
 #include "support/drawn_plan.hpp"
 
 using namespace experiment;
+using incognita::Random;
 
 namespace {
 
@@ -25,7 +26,7 @@ Study two_methods() {
   study.maps.resize(2);
   study.maps[0].name = "here";
   study.maps[1].name = "there";
-  study.methods = {{"a", ""}, {"b", ""}};
+  study.methods = {{"a", "", ""}, {"b", "", ""}};
   study.trials = {{"all", {1, 2}, {1, 2, 3}}};
   return study;
 }
@@ -85,54 +86,83 @@ TEST_CASE("the mean over groups counts each alike and draws again within each") 
 }
 
 TEST_CASE("claims are judged by differences on the same starts and seeds") {
-  const Study study = two_methods();
+  Study study = two_methods();
+  study.trials = {{"all", {1, 2, 3, 4, 5, 6}, {1}}};
   const TrialGroup& group = study.trials.front();
-  // What starts and seeds do is larger than what methods do.
+  // What starts do is larger than what methods do.
   const auto rows = rows_of(study, [](const Unit& unit) {
-    const double of_trial = 10.0 * unit.start + 3.0 * unit.seed;
-    return of_trial + (unit.method == 0 ? 0.0 : unit.map == 0 ? 1.0 + 0.1 * unit.seed : 0.5 * (unit.seed - 2));
+    return 10.0 * unit.start + (unit.method == 0 ? 0.0 : unit.map == 0 ? 1.0 + 0.1 * unit.start : 0.5 * (unit.start - 3.5));
   });
   const Results results(study, rows);
   Claim claim{"a errs less", "error", {0}, {1}, true, {0, 1}};
-  const auto on = [&](std::size_t map) { return results.differences(map, claim, group); };
+  const auto on = [&](std::size_t map) { return results.pairs(map, claim, group); };
   CHECK(judge(claim, {on(0)}).verdict == Verdict::holds);
   CHECK(judge(claim, {on(0)}).pairs == 6);
-  CHECK(judge(claim, {on(0)}).difference.mean == Approx(-1.2));
+  CHECK(judge(claim, {on(0)}).difference.mean == Approx(-1.35));
   CHECK(judge(claim, {on(1)}).verdict == Verdict::undecided);
   CHECK(judge(claim, {on(0), on(1)}).pairs == 12);
-  CHECK(judge(claim, {on(0), on(1)}).difference.mean == Approx(-0.6));
+  CHECK(judge(claim, {on(0), on(1)}).difference.mean == Approx(-0.675));
   CHECK(judge(claim, {on(0), {}}).verdict == Verdict::undecided);
   CHECK(judge(claim, {}).pairs == 0);
   claim.is_less = false;
-  CHECK(judge(claim, {on(0)}).verdict == Verdict::does_not_hold);
-  // By how much two methods differ has no sign.
-  claim.worse = {1, 0};
-  claim.better = {0};
-  CHECK(study.name_of(claim.worse) == "|b - a|");
-  CHECK(results.differences(0, claim, group).front() == Approx(13.0 - 1.1));
-  const TrialGroup first{"first", {1}, {1, 2}};
-  CHECK(results.differences(0, claim, first).size() == 2);
-  CHECK(Results(study, {rows[0], rows[1], rows[4]}).differences(0, claim, group).size() == 1);
+  CHECK(judge(claim, {on(0)}).verdict == Verdict::opposite);
+  const TrialGroup first{"first", {1, 2}, {1}};
+  CHECK(results.pairs(0, claim, first).size() == 2);
+  CHECK(Results(study, {rows[0], rows[1], rows[4]}).pairs(0, claim, group).size() == 1);
+}
+
+TEST_CASE("seeds from one start count as one pair") {
+  const Study study = two_methods();  // two starts, three seeds
+  const auto rows = rows_of(study, [](const Unit& unit) { return unit.method == 0 ? 0.0 : 1.0 * unit.start + 0.1 * unit.seed; });
+  const Results results(study, rows);
+  const Claim claim{"a errs less", "error", {0}, {1}, true, {0}};
+  const auto pairs = results.pairs(0, claim, study.trials.front());
+  REQUIRE(pairs.size() == 2);
+  CHECK(Results::pairs_max(study.trials.front()) == 2);
+  CHECK(pairs[1][1] == Approx(2.2));
+  CHECK(Results::pairs_max({"seeds", {1}, {1, 2, 3}}) == 3);
+}
+
+TEST_CASE("how much two methods differ is judged by their mean difference, not by how much missions scatter") {
+  Study study;
+  study.maps.resize(1);
+  study.methods = {{"a", "", ""}, {"b", "", ""}, {"c", "", ""}, {"d", "", ""}};
+  study.trials = {{"all", {}, {1}}};
+  for (int start = 1; start <= 30; ++start) study.trials.front().starts.push_back(start);
+  const Claim claim{"a and b differ more than c and d", "error", {0, 1}, {2, 3}, false, {0}};
+  CHECK(study.name_of(claim.worse) == "|c - d|");
+  const auto judged = [&](double of_a, double scatter) {
+    Random random(3);
+    const auto rows = rows_of(study, [&](const Unit& unit) {
+      return unit.method == 0 ? of_a + random.normal(0.0, scatter) : unit.method == 1 ? random.normal(0.0, scatter) : random.normal(0.0, 0.1);
+    });
+    return judge(claim, {Results(study, rows).pairs(0, claim, study.trials.front())});
+  };
+  CHECK(judged(0.0, 1.0).verdict == Verdict::undecided);
+  CHECK(judged(2.0, 1.0).verdict == Verdict::holds);
+  CHECK(judged(-2.0, 1.0).verdict == Verdict::holds);
+  CHECK(judged(2.0, 1.0).difference.mean == Approx(2.0).margin(0.6));
 }
 
 TEST_CASE("claims of ratios are judged by logarithms") {
-  const Study study = two_methods();
+  Study study = two_methods();
+  study.trials = {{"all", {1, 2, 3, 4, 5, 6}, {1}}};
   // In one trial of six both err a hundred times as much, which hides from a mean of differences that b errs twice as much in all others.
   const auto rows = rows_of(study, [](const Unit& unit) {
     if (unit.map == 1) return unit.method == 0 ? 0.0 : 1.0;
-    if (unit.start == 1 && unit.seed == 1) return unit.method == 0 ? 110.0 : 100.0;
+    if (unit.start == 1) return unit.method == 0 ? 110.0 : 100.0;
     return unit.method == 0 ? 1.0 : 2.0;
   });
   const Results results(study, rows);
   Claim claim{"a errs less", "error", {0}, {1}, true, {0, 1}};
-  CHECK(judge(claim, {results.differences(0, claim, study.trials.front())}).verdict == Verdict::undecided);
+  CHECK(judge(claim, {results.pairs(0, claim, study.trials.front())}).verdict == Verdict::undecided);
   claim.is_of_ratios = true;
-  const std::vector<double> logarithms = results.differences(0, claim, study.trials.front());
+  const auto logarithms = results.pairs(0, claim, study.trials.front());
   REQUIRE(logarithms.size() == 6);
-  CHECK(logarithms.front() == Approx(std::log(1.1)));
-  CHECK(logarithms.back() == Approx(-std::log(2.0)));
+  CHECK(logarithms.front()[0] - logarithms.front()[1] == Approx(std::log(1.1)));
+  CHECK(logarithms.back()[0] - logarithms.back()[1] == Approx(-std::log(2.0)));
   CHECK(judge(claim, {logarithms}).verdict == Verdict::holds);
-  CHECK(results.differences(1, claim, study.trials.front()).empty());  // a ratio to nothing has no logarithm
+  CHECK(results.pairs(1, claim, study.trials.front()).empty());  // a ratio to nothing has no logarithm
 }
 
 TEST_CASE("what has failed is in no value, and a unit counts once") {
@@ -271,7 +301,7 @@ name = "starts"
 starts = [1]
 seeds = [1]
 )";
-  std::ofstream(folder / "base.toml") << parts << "[defaults]\nfilter = \"decoupled\"\nnavigation = \"uniform\"\nbeams = 90\nduration_s = 10\n";
+  std::ofstream(folder / "base.toml") << parts << "[defaults]\nnavigation = \"uniform\"\nbeams = 90\nduration_s = 10\n";
   const Study study = read_study(folder / "base.toml", "");
   const auto settings = [&](std::size_t method) { return study.settings_of({0, method, 1, 1}); };
   CHECK(settings(0).filter == "dead-reckoning");
@@ -284,7 +314,7 @@ seeds = [1]
   CHECK(settings(2).information == "uniform");
   CHECK(settings(2).navigation == "geodesic");
   CHECK(settings(3).filter == "none");
-  CHECK(study.methods[3].line == 12);
+  CHECK(study.methods[3].where == (folder / "base.toml").string() + ":12");
 
   std::ofstream(folder / "other.toml") << "title = \"Other\"\nlike = \"base\"\n[defaults]\nbeams = 45\n";
   const Study other = read_study(folder / "other.toml", "");
@@ -295,6 +325,9 @@ seeds = [1]
   std::ofstream(folder / "third.toml") << "like = \"other\"\n";
   CHECK_THROWS_WITH(read_study(folder / "third.toml", ""), Catch::EndsWith("third.toml:1: like names a study that is like another itself"));
   std::ofstream(folder / "third.toml") << "\nlike = \"none\"\n";
-  CHECK_THROWS_WITH(read_study(folder / "third.toml", ""), Catch::EndsWith("third.toml:2: there is no study \"none\" beside this one"));
+  CHECK_THROWS_WITH(read_study(folder / "third.toml", ""), Catch::EndsWith("third.toml:2: there is no study \"none\" beside this one, nor is one shipped"));
+  std::filesystem::create_directories(folder / "own");
+  std::ofstream(folder / "own" / "mine.toml") << "like = \"base\"\n[defaults]\nbeams = 30\n";
+  CHECK(read_study(folder / "own" / "mine.toml", "", folder).settings_of({0, 0, 1, 1}).beams == 30);
   std::filesystem::remove_all(folder);
 }
