@@ -116,12 +116,14 @@ inline std::string fault_of(const Series& series) {
 }
 
 /// The places 1, 2, ... on x, under their names.
-inline std::string names_script(const std::vector<std::string>& names) {
+inline std::string names_script(const std::vector<std::string>& names, int panel_width_px) {
   std::size_t longest = 0;
   for (const std::string& name : names) longest = std::max(longest, name.size());
-  constexpr std::size_t letters = 70;  // that fit beside each other
+  constexpr int margins_px = 120;
+  constexpr int letter_px = 10;
+  const auto fitting = static_cast<std::size_t>(std::max(0, panel_width_px - margins_px) / letter_px);
   std::string text = "set xtics ";
-  if (longest * names.size() > letters) text += "rotate by 20 right ";
+  if ((longest + 1) * names.size() > fitting) text += "rotate by 20 right ";
   for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "(" : ", ") + quoted(names[i]) + ' ' + std::to_string(i + 1);
   return text + ")\n";
 }
@@ -137,7 +139,7 @@ inline bool has_points(const Chart& chart) {
 }
 
 /// The commands for one panel, whose first series is $series<block>.
-inline std::string panel_script(const Chart& chart, std::size_t block) {
+inline std::string panel_script(const Chart& chart, std::size_t block, int panel_width_px) {
   std::ostringstream out;
   const bool is_below = chart.legend.starts_with("below");
   out << "set title " << quoted(chart.title) << "\nset xlabel " << quoted(chart.x_label) << "\nset ylabel " << quoted(chart.y_label)
@@ -145,7 +147,7 @@ inline std::string panel_script(const Chart& chart, std::size_t block) {
   if (is_below) out << ' ' << chart.lines_below;
   out << "\nset border 3 lw 1.2\nset tics nomirror out\nset xtics nomirror out autofreq norotate\nset ytics nomirror out autofreq\n"
       << "set grid lw 0.8 lc rgb '#dddddd' lt 1\nunset label\n";
-  if (!chart.names.empty()) out << names_script(chart.names);
+  if (!chart.names.empty()) out << names_script(chart.names, panel_width_px);
   if (chart.only_legend) {
     out << "unset border\nunset tics\nunset grid\n";
   } else if (!has_points(chart)) {
@@ -205,7 +207,7 @@ inline std::string script(const std::filesystem::path& path, const std::vector<C
       << "set format '%g'\nset title offset 0,-0.4\n";
   block = 0;
   for (const Chart& chart : panels) {
-    out << panel_script(chart, block);
+    out << panel_script(chart, block, layout.panel_width_px);
     block += chart.series.size();
   }
   out << "unset multiplot\nunset output\n";
