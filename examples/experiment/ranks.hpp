@@ -34,7 +34,7 @@ class Ranks {
     if (is_started_) MPI_Finalize();
   }
 
-  /// Does not wait for anybody.
+  /// May wait until `to` receives it: long texts are not kept.
   void send(int to, const std::string& text) const {
     MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, to, 0, MPI_COMM_WORLD);
   }

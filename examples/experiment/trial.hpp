@@ -11,7 +11,7 @@ namespace experiment {
 
 /// A mission in two texts, each the members of a JSON object without its braces.
 struct TrialText {
-  std::string result;  ///< metrics, how they grew, and the way: the same on any machine and number of threads
+  std::string result;  ///< metrics, how they grew, and the way: the same for any number of threads or ranks
   std::string cost;    ///< what it took
 };
 
